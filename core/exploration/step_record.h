@@ -1,0 +1,78 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/exploration/ports.h"
+#include "core/planners/contour_planner.h"
+#include "core/volume/tsdf_volume.h"
+
+namespace vantage {
+
+/// Stages of a step in the order in which they are done and published.
+enum class Stage { Sense, Fuse, Contours, Surface, Segmentation, Saliency, Generation, Evaluation, Motion, Done };
+std::string_view toString(Stage stage);
+
+/// Wall-clock seconds of each phase; absent = the phase did not run.
+struct Timings {
+  std::optional<double> sense, filter, fuse, contours, surface, segmentation, saliency, generation, evaluation,
+      collision_map, motion_planning, motion;
+};
+
+/// One brick of the volume as it is after this step's fusion.
+struct TsdfBrick {
+  std::uint32_t brick = 0;
+  std::vector<TsdfVoxel> voxels;
+};
+
+/// Where the frames of a scan were taken.
+struct ScanPose {
+  Pose T_world_camera = Pose::Identity();
+  int frame = -1;  ///< number in a recorded sequence
+};
+
+/// Numbers that describe the map after a scan.
+struct MapMetrics {
+  std::uint64_t unknown_voxels = 0;                       ///< w = 0, in the workspace
+  std::optional<std::uint64_t> unknown_near_objects;      ///< U_tau, needs ground truth
+  std::optional<std::uint64_t> unknown_in_boxes;          ///< U_box, needs ground truth
+  std::optional<double> coverage;                         ///< share in [0,1], needs ground truth
+};
+
+/// Everything about one step: scan, map, products of every planning stage, decision and motion. Products are shared and
+/// immutable; a record only ever grows. Step k >= 1 plans NBV k; the closing record holds the scan taken at the
+/// last view.
+struct StepRecord {
+  int step = 1;
+  bool closing = false;
+  Stage stage = Stage::Sense;    ///< last stage that is complete
+  std::string planner;           ///< "contour" or "standard"
+
+  std::vector<ScanPose> scan;
+  std::shared_ptr<const DepthFrame> depth;                      ///< last frame of the scan
+  std::shared_ptr<const std::vector<TsdfBrick>> changed_bricks; ///< since the step before; ascending
+  MapMetrics metrics;
+
+  std::shared_ptr<const Contours> contours;
+  std::shared_ptr<const SurfaceCloud> surface;
+  std::shared_ptr<const Labels> labels;
+  std::shared_ptr<const Saliency> saliency;
+  std::shared_ptr<const std::vector<std::uint32_t>> point_labels;  ///< segment label per contour point
+  std::shared_ptr<const std::vector<ViewPosition>> positions;
+  std::shared_ptr<const ViewSearch> search;
+
+  std::optional<bool> toward_object;             ///< needs ground truth and a chosen view
+  std::optional<std::uint64_t> realised_voxels;  ///< filled once the next scan is fused
+  /// Replay: the frame that served the chosen view.
+  std::optional<ScanPose> served;
+  Timings timings;
+
+  bool hasView() const { return search && search->chosen.has_value(); }
+};
+
+using StepObserver = std::function<void(std::shared_ptr<const StepRecord>)>;
+
+}  // namespace vantage

@@ -1,0 +1,1 @@
+#include "core/planners/contour_planner.h"

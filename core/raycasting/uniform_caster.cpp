@@ -1,0 +1,1 @@
+#include "core/raycasting/uniform_caster.h"

@@ -1,0 +1,1 @@
+#include "core/views/contour_views.h"

@@ -1,0 +1,1 @@
+#include "core/volume/tsdf_volume.h"

@@ -1,0 +1,2 @@
+# vantage_io_scene: scene files, solids, meshes, ground truth, embedded assets.
+add_library(vantage_io_scene INTERFACE)
