@@ -20,7 +20,7 @@ fi
 export DEBIAN_FRONTEND=noninteractive
 "${as_root[@]}" apt-get update -qq
 options=(-y -qq --no-install-recommends)
-size=$(LC_ALL=C apt-get install "${options[@]}" -qq0 --assume-no "${missing[@]}" 2>/dev/null | sed -n 's/^Need to get \(.*\) of archives.*/\1/p' || true)
+size=$(LC_ALL=C apt-get install --no-install-recommends --assume-no "${missing[@]}" 2>/dev/null | sed -n 's/^Need to get \(.*\) of archives.*/\1/p' || true)
 echo "Installing ${#missing[@]} Debian packages and what they need${size:+ (download $size)}: a few minutes on a fast network."
 log=$(mktemp)
 if ! "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install "${options[@]}" "${missing[@]}" >"$log" 2>&1; then

@@ -15,13 +15,13 @@ namespace vantage {
 
 /// What a run is about; written once at its start.
 struct RunHeader {
-  std::string input;         ///< scene name or path, data set path
+  std::string input;  ///< scene name or path, data set path
   std::string planner;
-  std::string robot;         ///< "free" or an arm's name
+  std::string robot;  ///< "free" or an arm's name
   std::string command_line;
-  std::string version;       ///< of the program that wrote it
-  std::string scene_toml;    ///< text of the scene file, empty for a data set
-  std::string config_toml;   ///< effective configuration with every value's origin as comments
+  std::string version;      ///< of the program that wrote it
+  std::string scene_toml;   ///< text of the scene file, empty for a data set
+  std::string config_toml;  ///< effective configuration with every value's origin as comments
   std::uint64_t seed = 0;
   int threads = 0;
   std::string compute = "cpu";
@@ -30,12 +30,13 @@ struct RunHeader {
   Box workspace;
   ContourPlannerConfig planner_config;
   FreeFlyerConfig free_flyer;
-  bool replay = false;       ///< the camera served recorded frames
-  TriangleMesh truth;        ///< the true scene, empty if not known
+  bool replay = false;  ///< the camera served recorded frames
+  TriangleMesh truth;   ///< the true scene, empty if not known
 };
 
-/// Writes a run file (SQLite, one transaction per step): a crash at any instant loses at most the step in progress, and
-/// readers may follow. While it is open, `PATH-wal` and `PATH-shm` lie beside it; they go when it is closed.
+/// Writes a run file (SQLite, one transaction per step): a crash at any instant loses at most the step in
+/// progress, and readers may follow. While it is open, `PATH-wal` and `PATH-shm` lie beside it; they go when
+/// it is closed.
 class RunWriter {
  public:
   /// Creates or replaces the file. \throws InputError if it cannot be created.
@@ -43,11 +44,11 @@ class RunWriter {
   ~RunWriter();
   RunWriter(const RunWriter&) = delete;
 
-  /// Adds a finished step, or the closing record (record.closing). \throws std::runtime_error naming the file, e.g. when the disk is
-  /// full; steps written before stay readable.
+  /// Adds a finished step, or the closing record (record.closing). \throws std::runtime_error naming the
+  /// file, e.g. when the disk is full; steps written before stay readable.
   void write(const StepRecord& record);
-  /// Fills in the realised gain of an earlier step once its view's scan is fused.
-  void setRealised(int step, std::uint64_t realised_voxels);
+  /// Adds what is known of a stored step once its view's scan is fused: realised_voxels and served.
+  void setRealised(const StepRecord& record);
   /// Stores why the run ended and folds the side files into one.
   void finish(const std::string& stop_reason);
 
@@ -65,17 +66,17 @@ class RunReader {
   RunReader(const RunReader&) = delete;
 
   const RunHeader& header() const;
-  std::vector<int> steps() const;            ///< numbers of the recorded steps, ascending
-  bool hasClosing() const;                   ///< the scan at the last view is there
+  std::vector<int> steps() const;                 ///< numbers of the recorded steps, ascending
+  bool hasClosing() const;                        ///< the scan at the last view is there
   std::optional<std::string> stopReason() const;  ///< empty while the run goes on or was cut off
 
   /// The record of a step with all its products. \throws InputError if there is no such step.
   StepRecord step(int step) const;
   StepRecord closing() const;
 
-  /// The volume as it was when `step` was planned: applies the bricks of the steps after `from_step` up to `step`
-  /// to `volume`, which holds the state of `from_step` (0 = empty volume). closingStep() names the map after the
-  /// last scan. Returns the bricks that changed.
+  /// The volume as it was when `step` was planned: applies the bricks of the steps after `from_step` up to
+  /// `step` to `volume`, which holds the state of `from_step` (0 = empty volume). closingStep() names the map
+  /// after the last scan. Returns the bricks that changed.
   BrickSet advanceVolume(TsdfVolume& volume, int from_step, int step) const;
   int closingStep() const;  ///< last step + 1
 

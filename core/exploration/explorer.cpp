@@ -1,1 +1,318 @@
 #include "core/exploration/explorer.h"
+
+#include <chrono>
+#include <utility>
+
+#include "core/exploration/map_metrics.h"
+#include "core/geometry/check.h"
+
+namespace vantage {
+namespace {
+
+/// Wall-clock seconds since construction.
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Runs `work` and stores its duration.
+template <class Work>
+auto timed(std::optional<double>& seconds, Work&& work) {
+  const Stopwatch watch;
+  auto result = std::forward<Work>(work)();
+  seconds = watch.seconds();
+  return result;
+}
+
+template <class T>
+std::shared_ptr<const std::decay_t<T>> share(T&& value) {
+  return std::make_shared<const std::decay_t<T>>(std::forward<T>(value));
+}
+
+}  // namespace
+
+std::string_view toString(Stage stage) {
+  constexpr std::string_view kNames[] = {"sense",        "fuse",     "contours",   "surface",
+                                         "segmentation", "saliency", "generation", "evaluation",
+                                         "motion",       "done",     "realised"};
+  return kNames[static_cast<int>(stage)];
+}
+
+void ExplorationConfig::validate() const {
+  planner.validate();
+  requireInRange("volume.voxel_size_m", volume.voxel_size_m, 1e-4, 1.0);
+  for (int a = 0; a < 3; ++a) {
+    requireInRange("volume.size", volume.size[a], 2, 1 << 20);
+    requireInRange("workspace.max_m", workspace.max()[a], workspace.min()[a], 1e6);
+  }
+  fusion.validate(volume.voxel_size_m);
+  scan.validate();
+  requireInRange("exploration.steps", steps, 0, 100000);
+}
+
+struct Explorer::State {
+  State(ExplorationConfig config_, DepthCamera& camera_, Robot& robot_, const GroundTruth* truth_)
+      : config(std::move(config_)),
+        camera(camera_),
+        robot(robot_),
+        truth(truth_),
+        volume(config.volume),
+        states(config.volume),
+        metrics(config.volume, config.workspace, truth_) {}
+
+  ExplorationConfig config;
+  DepthCamera& camera;
+  Robot& robot;
+  const GroundTruth* truth;
+  TsdfVolume volume;
+  StateGrid states;
+  MapMetricsCounter metrics;
+  std::vector<StepObserver> observers;
+  std::vector<Pose> executed;
+  std::vector<Eigen::Vector3d> disappointing;
+  std::uint64_t frames_taken = 0;
+
+  void publish(StepRecord& record, Stage stage) {
+    record.stage = stage;
+    const auto snapshot = std::make_shared<const StepRecord>(record);
+    for (const StepObserver& observer : observers) observer(snapshot);
+  }
+
+  bool isReplay() const { return !camera.recordedPoses().empty(); }
+  std::vector<Pose> startPoses() const;
+  bool scanInto(StepRecord& record, const std::vector<Pose>& poses, bool clear_start,
+                const RunControl& control);
+  void plan(StepRecord& record, const RunControl& control);
+  ViewSearch search(const StepRecord& record, const RunControl& control);
+  void realise(StepRecord& previous, const StepRecord& scanned, std::uint64_t unknown_before);
+  std::uint64_t unknownInRegion(const StepRecord& record) const;
+};
+
+std::vector<Pose> Explorer::State::startPoses() const {
+  std::vector<Pose> recorded = camera.recordedPoses();
+  if (recorded.empty()) return initialScanPoses(config.scan);
+  if (static_cast<int>(recorded.size()) > config.scan.initial_frames)
+    recorded.resize(config.scan.initial_frames);
+  return recorded;
+}
+
+/// Sense and fuse. False if the camera had no frame at all.
+bool Explorer::State::scanInto(StepRecord& record, const std::vector<Pose>& poses, bool clear_start,
+                               const RunControl& control) {
+  double sense_s = 0.0, fuse_s = 0.0;
+  BrickSet changed(volume.bricks().total());
+  DepthFrame last;
+  for (std::size_t p = 0; p < poses.size(); ++p) {
+    control.check();
+    control.report("sense", p, poses.size());
+    const Stopwatch sensing;
+    std::optional<DepthFrame> frame = camera.capture(poses[p], frames_taken);
+    sense_s += sensing.seconds();
+    if (!frame) break;
+    ++frames_taken;
+    const Stopwatch fusing;
+    // The sensor has been here: its own neighbourhood is empty (D-B28), all along the way of the initial
+    // scan.
+    if (clear_start)
+      changed.merge(clearSphere(volume, frame->T_world_camera.translation(), config.scan.clear_radius_m));
+    changed.merge(
+        fuseDepth(volume, frame->depth, camera.model(), frame->T_world_camera, config.fusion).changed);
+    fuse_s += fusing.seconds();
+    record.scan.push_back({frame->T_world_camera, frame->frame});
+    last = std::move(*frame);
+  }
+  if (record.scan.empty()) return false;
+  robot.localise(last.T_world_camera);
+  record.depth = share(std::move(last));
+  record.timings.sense = sense_s;
+  publish(record, Stage::Sense);
+
+  const Stopwatch updating;
+  states.update(volume, changed);
+  record.timings.fuse = fuse_s + updating.seconds();
+  std::vector<TsdfBrick> bricks;
+  for (const std::uint32_t brick : changed.list()) bricks.push_back({brick, volume.brick(brick)});
+  record.changed_bricks = share(std::move(bricks));
+  record.metrics = metrics.count(states);
+  publish(record, Stage::Fuse);
+  return true;
+}
+
+/// Algorithm 1, Monica & Aleotti 2017, one named call per stage.
+void Explorer::State::plan(StepRecord& record, const RunControl& control) {
+  const ContourPlannerConfig& planner = config.planner;
+  const bool segments = planner.segment_by_segment;
+  Timings& t = record.timings;
+  std::optional<double> untimed;  // the baseline needs no surface; it is kept for coverage and pictures
+
+  record.contours = share(timed(t.contours, [&] { return extractContours(volume, planner.contours); }));
+  publish(record, Stage::Contours);
+  control.check();
+
+  record.surface = share(timed(segments ? t.surface : untimed,
+                               [&] { return extractSurface(volume, planner.contours.weight_threshold); }));
+  if (truth) record.metrics.coverage = surfaceCoverage(truth->observableSurface(), *record.surface);
+  publish(record, Stage::Surface);
+  control.check();
+
+  if (segments) {
+    record.labels =
+        share(timed(t.segmentation, [&] { return segmentSurface(*record.surface, planner.segmentation); }));
+    publish(record, Stage::Segmentation);
+    control.check();
+    record.saliency = share(timed(
+        t.saliency, [&] { return computeSaliency(*record.surface, *record.labels, planner.saliency); }));
+    publish(record, Stage::Saliency);
+    control.check();
+  }
+
+  record.positions = share(
+      timed(t.generation, [&] { return contourViewPositions(record.contours->points, planner.views); }));
+  if (segments)
+    record.point_labels =
+        share(assignContourPoints(record.contours->points, *record.surface, *record.labels));
+  publish(record, Stage::Generation);
+  control.check();
+
+  const Stopwatch mapping;
+  robot.observe(states);
+  t.collision_map = mapping.seconds();
+  record.search = share(search(record, control));
+  t.evaluation = record.search->evaluation_s;
+  t.motion_planning = record.search->motion_planning_s;
+  if (truth && record.hasView()) {
+    const ContourPoint& point = record.contours->points[record.search->chosen->contour_point];
+    record.toward_object = truth->objectDistance(point.position_m) <= kObjectMargin_m;
+  }
+  publish(record, Stage::Evaluation);
+}
+
+ViewSearch Explorer::State::search(const StepRecord& record, const RunControl& control) {
+  static const std::vector<std::uint32_t> kNoLabels;
+  static const Saliency kNoSaliency;
+  const ViewSearchInput input{.states = states,
+                              .camera = camera.model(),
+                              .workspace = config.workspace,
+                              .points = record.contours->points,
+                              .positions = *record.positions,
+                              .point_labels = record.point_labels ? *record.point_labels : kNoLabels,
+                              .saliency = record.saliency ? *record.saliency : kNoSaliency,
+                              .executed = executed,
+                              .disappointing = disappointing};
+  std::uint64_t tried = 0;
+  MotionPlan reported;  // where the verdict is only reported: of the last pose asked for, i.e. the chosen one
+  const ReachPose reach_pose = [&](const Pose& pose) {
+    MotionPlan plan =
+        reach(pose, (config.seed << 32) + static_cast<std::uint64_t>(record.step) * 1000003 + tried++);
+    if (config.enforce_reachability) return plan;
+    reported = plan;
+    plan.verdict = Reachability::Reachable;
+    return plan;
+  };
+  ViewSearch result = searchView(input, config.planner, reach_pose, control);
+  if (!config.enforce_reachability && result.chosen) {
+    result.chosen->path = reported;
+    result.segments[result.chosen->search].scores[result.chosen->rank].reachability = reported.verdict;
+  }
+  return result;
+}
+
+std::uint64_t Explorer::State::unknownInRegion(const StepRecord& record) const {
+  const SegmentSearch& segment = record.search->segments[record.search->chosen->search];
+  if (!config.planner.segment_by_segment) return states.count(VoxelState::Unknown, config.workspace);
+  return countUnknown(states, segment.sphere);
+}
+
+/// Realised gain: a voxel once seen stays seen, so it is the drop of the unknown in the region
+/// (evaluation.md, section 2).
+void Explorer::State::realise(StepRecord& previous, const StepRecord& scanned, std::uint64_t unknown_before) {
+  const ChosenView& chosen = *previous.search->chosen;
+  previous.realised_voxels = unknown_before - unknownInRegion(previous);
+  if (isReplay()) {
+    previous.served = scanned.scan.back();
+    executed.push_back(scanned.scan.back().T_world_camera);
+  }
+  const GainConfig& gain = config.planner.gain;
+  if (gain.exclude_disappointing && static_cast<double>(*previous.realised_voxels) <
+                                        gain.disappointing_share * static_cast<double>(chosen.gain_voxels))
+    disappointing.push_back(previous.contours->points[chosen.contour_point].position_m);
+  publish(previous, Stage::Realised);
+}
+
+Explorer::Explorer(ExplorationConfig config, DepthCamera& camera, Robot& robot, const GroundTruth* truth) {
+  config.validate();
+  state_ = std::make_unique<State>(std::move(config), camera, robot, truth);
+}
+
+Explorer::~Explorer() = default;
+
+void Explorer::addObserver(StepObserver observer) {
+  state_->observers.push_back(std::move(observer));
+}
+const TsdfVolume& Explorer::volume() const {
+  return state_->volume;
+}
+const StateGrid& Explorer::states() const {
+  return state_->states;
+}
+
+ExplorationResult Explorer::run(const RunControl& control) {
+  State& s = *state_;
+  ExplorationResult result;
+  const std::string planner = s.config.planner.segment_by_segment ? kPlannerContour : kPlannerStandard;
+  std::optional<StepRecord> previous;
+  try {
+    for (int step = 1;; ++step) {
+      const bool closing = step > s.config.steps;
+      StepRecord record;
+      record.step = step;
+      record.closing = closing;
+      record.planner = planner;
+
+      const std::uint64_t unknown_before = previous ? s.unknownInRegion(*previous) : 0;
+      const std::vector<Pose> poses =
+          previous ? (s.isReplay() ? std::vector<Pose>{previous->search->chosen->T_world_camera}
+                                   : tiltedScanPoses(previous->search->chosen->T_world_camera, s.config.scan))
+                   : s.startPoses();
+      if (!s.scanInto(record, poses, !previous, control)) {
+        if (!previous) throw std::runtime_error("the camera served no frame for the initial scan");
+        result.stop_reason = "no frames left";
+        return result;
+      }
+      if (previous) s.realise(*previous, record, unknown_before);
+      if (closing) {
+        record.surface = share(extractSurface(s.volume, s.config.planner.contours.weight_threshold));
+        if (s.truth) record.metrics.coverage = surfaceCoverage(s.truth->observableSurface(), *record.surface);
+        s.publish(record, Stage::Done);
+        result.stop_reason = "steps done";
+        return result;
+      }
+
+      s.plan(record, control);
+      if (record.hasView()) {
+        const ChosenView& chosen = *record.search->chosen;
+        if (chosen.path.verdict == Reachability::Reachable)
+          record.timings.motion = s.robot.execute(chosen.path);
+        s.executed.push_back(chosen.T_world_camera);
+        s.publish(record, Stage::Motion);
+      }
+      s.publish(record, Stage::Done);
+      result.steps = step;
+      if (!record.hasView()) {  // D-B14
+        result.stop_reason = "finished";
+        return result;
+      }
+      previous = std::move(record);
+    }
+  } catch (const Cancelled&) {
+    result.stop_reason = "cancelled";
+    return result;
+  }
+}
+
+}  // namespace vantage

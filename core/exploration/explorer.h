@@ -6,22 +6,22 @@
 #include <vector>
 
 #include "core/exploration/ports.h"
-#include "core/run_control.h"
 #include "core/exploration/step_record.h"
+#include "core/run_control.h"
 
 namespace vantage {
 
 /// Initial scan and scanning motion (D-B27, D-B28).
 struct ScanConfig {
-  int initial_frames = 30;                                ///< >= 1; of a data set: recorded frames taken at the start
-  double initial_arc_m = 0.6;                             ///< length of the arc, metres
-  double initial_distance_m = 1.0;                        ///< to the scene centre, metres
-  double initial_elevation_rad = 0.52359877559829887;     ///< radians; 30 deg
-  double initial_azimuth_rad = -1.5707963267948966;       ///< of the arc's middle from +x, radians; -y
-  Eigen::Vector3d scene_center_m = {0.0, 0.0, 0.10};      ///< world
-  double clear_radius_m = 0.3;                            ///< start bubble, metres
-  int frames = 15;                                        ///< per NBV
-  double tilt_rad = 0.05235987755982988;                  ///< amplitude of the tilt, radians; 3 deg
+  int initial_frames = 30;          ///< >= 1; of a data set: recorded frames taken at the start
+  double initial_arc_m = 0.6;       ///< length of the arc, metres
+  double initial_distance_m = 1.0;  ///< to the scene centre, metres
+  double initial_elevation_rad = 0.52359877559829887;  ///< radians; 30 deg
+  double initial_azimuth_rad = -1.5707963267948966;    ///< of the arc's middle from +x, radians; -y
+  Eigen::Vector3d scene_center_m = {0.0, 0.0, 0.10};   ///< world
+  double clear_radius_m = 0.3;                         ///< start bubble, metres
+  int frames = 15;                                     ///< per NBV
+  double tilt_rad = 0.05235987755982988;               ///< amplitude of the tilt, radians; 3 deg
   bool operator==(const ScanConfig&) const = default;
   void validate() const;
 };
@@ -32,8 +32,8 @@ struct ExplorationConfig {
   ScanConfig scan;
   GridGeometry volume = {{-1.5, -1.0, -0.05}, 3.0 / 512.0, {512, 341, 200}};
   Box workspace = {Eigen::Vector3d(-1.0, -0.66, 0.0), Eigen::Vector3d(1.0, 0.66, 1.0)};
-  int steps = 5;                   ///< NBVs
-  bool enforce_reachability = true;///< false: the verdict is only reported (replayed data)
+  int steps = 5;                     ///< NBVs
+  bool enforce_reachability = true;  ///< false: the verdict is only reported (replayed data)
   std::uint64_t seed = 1;
   void validate() const;
 };

@@ -37,6 +37,8 @@ class Robot {
   virtual ~Robot() = default;
   virtual std::string name() const = 0;
   virtual Pose cameraPose() const = 0;
+  /// Tells where the last frame was taken from; called after every scan.
+  virtual void localise(const Pose& T_world_camera) = 0;
   /// Takes over the current map; called once a step, before plan().
   virtual void observe(const StateGrid& states) = 0;
   /// A motion to a camera pose, or why there is none.
@@ -49,13 +51,15 @@ class Robot {
 class GroundTruth {
  public:
   virtual ~GroundTruth() = default;
-  /// Distance to the nearest surface of a true object (table, panel and room are none), metres, never negative.
+  /// Distance to the nearest surface of a true object (table, panel and room are none), metres, never
+  /// negative.
   virtual double objectDistance(const Eigen::Vector3d& p_world) const = 0;
   /// True inside any solid, table and room included.
   virtual bool insideSolid(const Eigen::Vector3d& p_world) const = 0;
   /// Bounding boxes of the true objects.
   virtual std::vector<Box> objectBoxes() const = 0;
-  /// Surface points of the objects, one per 4 mm^2, that some feasible view can see (evaluation.md section 2).
+  /// Surface points of the objects, one per 4 mm^2, that some feasible view can see (evaluation.md section
+  /// 2).
   virtual const std::vector<Eigen::Vector3f>& observableSurface() const = 0;
   /// True object nearest to a point (index into objectBoxes()), -1 if none within `within_m`.
   virtual int objectAt(const Eigen::Vector3d& p_world, double within_m) const = 0;

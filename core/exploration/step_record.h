@@ -12,14 +12,28 @@
 
 namespace vantage {
 
-/// Stages of a step in the order in which they are done and published.
-enum class Stage { Sense, Fuse, Contours, Surface, Segmentation, Saliency, Generation, Evaluation, Motion, Done };
+/// Stages of a step in the order in which they are done and published. `Done`: the step is complete and ready
+/// to be stored. `Realised`: the scan at its view has been fused by the next step, so realised_voxels and
+/// served are known.
+enum class Stage {
+  Sense,
+  Fuse,
+  Contours,
+  Surface,
+  Segmentation,
+  Saliency,
+  Generation,
+  Evaluation,
+  Motion,
+  Done,
+  Realised
+};
 std::string_view toString(Stage stage);
 
 /// Wall-clock seconds of each phase; absent = the phase did not run.
 struct Timings {
-  std::optional<double> sense, filter, fuse, contours, surface, segmentation, saliency, generation, evaluation,
-      collision_map, motion_planning, motion;
+  std::optional<double> sense, filter, fuse, contours, surface, segmentation, saliency, generation,
+      evaluation, collision_map, motion_planning, motion;
 };
 
 /// One brick of the volume as it is after this step's fusion.
@@ -36,24 +50,24 @@ struct ScanPose {
 
 /// Numbers that describe the map after a scan.
 struct MapMetrics {
-  std::uint64_t unknown_voxels = 0;                       ///< w = 0, in the workspace
-  std::optional<std::uint64_t> unknown_near_objects;      ///< U_tau, needs ground truth
-  std::optional<std::uint64_t> unknown_in_boxes;          ///< U_box, needs ground truth
-  std::optional<double> coverage;                         ///< share in [0,1], needs ground truth
+  std::uint64_t unknown_voxels = 0;                   ///< w = 0, in the workspace
+  std::optional<std::uint64_t> unknown_near_objects;  ///< U_tau, needs ground truth
+  std::optional<std::uint64_t> unknown_in_boxes;      ///< U_box, needs ground truth
+  std::optional<double> coverage;                     ///< share in [0,1], needs ground truth
 };
 
-/// Everything about one step: scan, map, products of every planning stage, decision and motion. Products are shared and
-/// immutable; a record only ever grows. Step k >= 1 plans NBV k; the closing record holds the scan taken at the
-/// last view.
+/// Everything about one step: scan, map, products of every planning stage, decision and motion. Products are
+/// shared and immutable; a record only ever grows. Step k >= 1 plans NBV k; the closing record holds the scan
+/// taken at the last view.
 struct StepRecord {
   int step = 1;
   bool closing = false;
-  Stage stage = Stage::Sense;    ///< last stage that is complete
-  std::string planner;           ///< "contour" or "standard"
+  Stage stage = Stage::Sense;  ///< last stage that is complete
+  std::string planner;         ///< "contour" or "standard"
 
   std::vector<ScanPose> scan;
-  std::shared_ptr<const DepthFrame> depth;                      ///< last frame of the scan
-  std::shared_ptr<const std::vector<TsdfBrick>> changed_bricks; ///< since the step before; ascending
+  std::shared_ptr<const DepthFrame> depth;                       ///< last frame of the scan
+  std::shared_ptr<const std::vector<TsdfBrick>> changed_bricks;  ///< since the step before; ascending
   MapMetrics metrics;
 
   std::shared_ptr<const Contours> contours;
@@ -65,8 +79,8 @@ struct StepRecord {
   std::shared_ptr<const ViewSearch> search;
 
   std::optional<bool> toward_object;             ///< needs ground truth and a chosen view
-  std::optional<std::uint64_t> realised_voxels;  ///< filled once the next scan is fused
-  /// Replay: the frame that served the chosen view.
+  std::optional<std::uint64_t> realised_voxels;  ///< at Stage::Realised
+  /// Replay: the frame that served the chosen view, at Stage::Realised.
   std::optional<ScanPose> served;
   Timings timings;
 

@@ -8,10 +8,9 @@ namespace vantage {
 /// coordinates (z up), metres.
 using Pose = Eigen::Isometry3d;
 
-/// Camera pose at `eye_world` whose optical axis (+z) is `axis_world` (any length but zero). At roll 0 the image
-/// x axis is horizontal; for a vertical view it is the world x axis (D-B6). `roll_rad` turns the image about
-/// the optical axis, from x toward y.
-/// \throws std::invalid_argument if the axis has no length.
+/// Camera pose at `eye_world` whose optical axis (+z) is `axis_world` (any length but zero). At roll 0 the
+/// image x axis is horizontal; for a vertical view it is the world x axis (D-B6). `roll_rad` turns the image
+/// about the optical axis, from x toward y. \throws std::invalid_argument if the axis has no length.
 Pose lookAlong(const Eigen::Vector3d& eye_world, const Eigen::Vector3d& axis_world, double roll_rad = 0.0);
 
 /// Camera pose at `eye_world` looking at `target_world`; see lookAlong().
