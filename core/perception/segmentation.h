@@ -13,7 +13,7 @@ struct SegmentationConfig {
   double seed_m = 0.03;                               ///< VCCS seed spacing, metres, > voxel_m
   double spatial_weight = 1.0;                        ///< >= 0
   double normal_weight = 4.0;                         ///< >= 0
-  double concavity_tolerance_rad = 0.17453292519943;  ///< radians, 10 deg
+  double concavity_tolerance_rad = 0.17453292519943295;  ///< radians, 10 deg
   bool smoothness_check = true;
   double smoothness = 0.1;                            ///< share of the seed spacing allowed as step, >= 0
   int k_convexity = 0;                                ///< 0..3

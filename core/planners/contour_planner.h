@@ -23,7 +23,7 @@ struct GainConfig {
   OutsideUnknown outside = OutsideUnknown::Opaque;         ///< D-B9
   bool exclude_executed = true;                            ///< D-B15
   double executed_distance_m = 0.05;                       ///< D-B15, metres
-  double executed_angle_rad = 0.17453292519943;            ///< D-B15, radians; 10 deg
+  double executed_angle_rad = 0.17453292519943295;            ///< D-B15, radians; 10 deg
   bool exclude_disappointing = false;                      ///< D-B33
   double disappointing_share = 0.10;                       ///< realised / predicted below which D-B33 strikes
   double disappointing_distance_m = 0.05;                  ///< D-B33, metres
