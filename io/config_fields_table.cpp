@@ -1,0 +1,351 @@
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <type_traits>
+
+#include "io/config_fields.h"
+
+// The one list of everything that can be configured: key, meaning with unit and source, range, and where it
+// lives. "section" is a section of the contour planner's specification, "D-B7" one of its decisions.
+
+namespace vantage::config {
+namespace {
+
+double radians(double degrees) {
+  return degrees * std::numbers::pi / 180.0;
+}
+
+/// The degrees that radians() takes back to exactly this angle, if there are any.
+double degrees(double angle_rad) {
+  const double about = angle_rad * 180.0 / std::numbers::pi;
+  const double rounded = std::round(about * 1e9) / 1e9;
+  if (radians(rounded) == angle_rad) return rounded;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double up = about, down = about;
+  for (int i = 0; i < 4; ++i) {
+    if (radians(up) == angle_rad) return up;
+    if (radians(down) == angle_rad) return down;
+    up = std::nextafter(up, kInfinity);
+    down = std::nextafter(down, -kInfinity);
+  }
+  return about;
+}
+
+Field base(const char* key, const char* doc, Kind kind, double low = 0.0, double high = 0.0) {
+  Field field;
+  field.key = key;
+  field.documentation = doc;
+  field.kind = kind;
+  field.low = low;
+  field.high = high;
+  return field;
+}
+
+// `ref` is a generic lambda that leads to the value in const and in mutable settings.
+
+template <class Ref>
+Field number(const char* key, const char* doc, double low, double high, Ref ref) {
+  Field field = base(key, doc, Kind::Number, low, high);
+  field.get = [ref](const Settings& s) -> Value { return double{ref(s)}; };
+  field.set = [ref](Settings& s, const Value& v) { ref(s) = std::get<double>(v); };
+  return field;
+}
+
+template <class Ref>
+Field angle(const char* key, const char* doc, double low, double high, Ref ref) {
+  Field field = base(key, doc, Kind::Number, low, high);
+  field.get = [ref](const Settings& s) -> Value { return degrees(ref(s)); };
+  field.set = [ref](Settings& s, const Value& v) { ref(s) = radians(std::get<double>(v)); };
+  return field;
+}
+
+template <class Ref>
+Field integer(const char* key, const char* doc, double low, double high, Ref ref) {
+  Field field = base(key, doc, Kind::Integer, low, high);
+  field.get = [ref](const Settings& s) -> Value { return static_cast<std::int64_t>(ref(s)); };
+  field.set = [ref](Settings& s, const Value& v) {
+    auto& target = ref(s);
+    target = static_cast<std::remove_reference_t<decltype(target)>>(std::get<std::int64_t>(v));
+  };
+  return field;
+}
+
+template <class Ref>
+Field flag(const char* key, const char* doc, Ref ref) {
+  Field field = base(key, doc, Kind::Boolean);
+  field.get = [ref](const Settings& s) -> Value { return bool{ref(s)}; };
+  field.set = [ref](Settings& s, const Value& v) { ref(s) = std::get<bool>(v); };
+  return field;
+}
+
+/// Two or more words for the values of an enumeration or a flag.
+template <class T, class Ref>
+Field choice(const char* key, const char* doc, std::vector<std::pair<std::string, T>> words, Ref ref) {
+  Field field = base(key, doc, Kind::Choice);
+  for (const auto& [word, value] : words) field.choices.push_back(word);
+  field.get = [ref, words](const Settings& s) -> Value {
+    for (const auto& [word, value] : words)
+      if (value == ref(s)) return word;
+    return words.front().first;
+  };
+  field.set = [ref, words](Settings& s, const Value& v) {
+    for (const auto& [word, value] : words)
+      if (word == std::get<std::string>(v)) ref(s) = value;
+  };
+  return field;
+}
+
+/// A vector of three numbers or integers.
+template <class Ref>
+Field vector3(const char* key, const char* doc, Kind kind, double low, double high, Ref ref) {
+  Field field = base(key, doc, kind, low, high);
+  field.min_count = field.max_count = 3;
+  field.get = [ref](const Settings& s) -> Value {
+    const auto& v = ref(s);
+    return std::vector<double>{double(v[0]), double(v[1]), double(v[2])};
+  };
+  field.set = [ref](Settings& s, const Value& value) {
+    auto& v = ref(s);
+    for (int i = 0; i < 3; ++i)
+      v[i] = static_cast<std::remove_reference_t<decltype(v[i])>>(std::get<std::vector<double>>(value)[i]);
+  };
+  return field;
+}
+
+template <class Ref>
+Field list(const char* key, const char* doc, double low, double high, int most, Ref ref) {
+  Field field = base(key, doc, Kind::Numbers, low, high);
+  field.min_count = 1;
+  field.max_count = most;
+  field.get = [ref](const Settings& s) -> Value { return ref(s); };
+  field.set = [ref](Settings& s, const Value& v) { ref(s) = std::get<std::vector<double>>(v); };
+  return field;
+}
+
+/// A rotation as unit quaternion x, y, z, w.
+template <class Ref>
+Field quaternion(const char* key, const char* doc, Ref ref) {
+  Field field = base(key, doc, Kind::Numbers, -1.0, 1.0);
+  field.min_count = field.max_count = 4;
+  field.get = [ref](const Settings& s) -> Value {
+    const Eigen::Quaterniond& q = ref(s);
+    return std::vector<double>{q.x(), q.y(), q.z(), q.w()};
+  };
+  field.set = [key, ref](Settings& s, const Value& value) {
+    const auto& v = std::get<std::vector<double>>(value);
+    const Eigen::Quaterniond q(v[3], v[0], v[1], v[2]);
+    if (!(std::abs(q.norm() - 1.0) <= 1e-3))
+      throw std::invalid_argument(std::string(key) + " is a quaternion of length " +
+                                  std::to_string(q.norm()) + "; allowed: 1 within 0.001");
+    ref(s) = q;
+  };
+  return field;
+}
+
+#define AT(member)       \
+  [](auto& s) -> auto& { \
+    return s.member;     \
+  }
+
+std::vector<Field> explorationFields() {
+  return {
+      choice<bool>("exploration.planner", "how views are chosen (section 2; D-B16 for the baseline)",
+                   {{kPlannerContour, true}, {kPlannerStandard, false}},
+                   AT(exploration.planner.segment_by_segment)),
+      integer("exploration.steps", "next best views per run (section 10)", 0, 10000, AT(exploration.steps)),
+      integer("exploration.seed", "of noise and path planning", 0, 9007199254740992.0, AT(exploration.seed)),
+      flag("exploration.enforce_reachability", "false: reachability is only reported (recorded data)",
+           AT(exploration.enforce_reachability)),
+      integer("scan.initial_frames", "frames of the initial scan (D-B28)", 1, 10000,
+              AT(exploration.scan.initial_frames)),
+      number("scan.initial_arc_m", "length of the initial arc, metres (D-B28)", 0, 100,
+             AT(exploration.scan.initial_arc_m)),
+      number("scan.initial_distance_m", "initial distance to the scene centre, metres (D-B28)", 0.01, 100,
+             AT(exploration.scan.initial_distance_m)),
+      angle("scan.initial_elevation_deg", "elevation of the initial arc, degrees (D-B28)", -90, 90,
+            AT(exploration.scan.initial_elevation_rad)),
+      angle("scan.initial_azimuth_deg", "middle of the initial arc, degrees from +x (D-B28)", -360, 360,
+            AT(exploration.scan.initial_azimuth_rad)),
+      vector3("scan.scene_center_m", "point the initial scan looks at, world, metres (D-B28)", Kind::Numbers,
+              -1000, 1000, AT(exploration.scan.scene_center_m)),
+      number("scan.clear_radius_m", "space around the sensor taken as empty at the start, metres (D-B28)", 0,
+             10, AT(exploration.scan.clear_radius_m)),
+      integer("scan.frames", "frames fused at each view (D-B27)", 1, 10000, AT(exploration.scan.frames)),
+      angle("scan.tilt_deg", "amplitude of the tilt at each view, degrees (D-B27)", 0, 45,
+            AT(exploration.scan.tilt_rad)),
+  };
+}
+
+std::vector<Field> cameraFields() {
+  return {
+      integer("camera.width", "image width, pixels (Kinect V2, section 10)", 1, 8192, AT(camera.width)),
+      integer("camera.height", "image height, pixels", 1, 8192, AT(camera.height)),
+      number("camera.fx", "focal length, pixels", 1e-3, 1e6, AT(camera.fx)),
+      number("camera.fy", "focal length, pixels", 1e-3, 1e6, AT(camera.fy)),
+      number("camera.cx", "principal point, pixels, 0 = centre of the first pixel", -1e6, 1e6, AT(camera.cx)),
+      number("camera.cy", "principal point, pixels", -1e6, 1e6, AT(camera.cy)),
+      number("camera.min_range_m", "nearest measurable depth, metres", 0, 1000, AT(camera.min_range_m)),
+      number("camera.max_range_m", "farthest measurable depth, metres, above the nearest", 1e-3, 10000,
+             AT(camera.max_range_m)),
+      number("camera.noise_at_1m_m", "simulated: standard deviation at 1 m, metres, grows with depth squared",
+             0, 1, AT(sensor.noise_at_1m_m)),
+      flag("camera.emitter_shadow", "simulated: pixels that the emitter does not light are invalid",
+           AT(sensor.emitter_shadow)),
+      number("camera.emitter_offset_m", "simulated: emitter to the left of the camera, metres (D-B20)", -1, 1,
+             AT(sensor.emitter_offset_m)),
+  };
+}
+
+std::vector<Field> mapFields() {
+  return {
+      vector3("volume.origin_m", "centre of voxel (0,0,0), world, metres (section 10)", Kind::Numbers, -1000,
+              1000, AT(exploration.volume.origin_m)),
+      number("volume.voxel_size_m", "edge of a voxel, metres (section 10)", 1e-4, 10,
+             AT(exploration.volume.voxel_size_m)),
+      vector3("volume.size", "voxels along x, y, z", Kind::Integers, 2, 8192, AT(exploration.volume.size)),
+      vector3(
+          "workspace.min_m",
+          "lower corner of the box that limits the baseline's gain and the metrics, metres", Kind::Numbers,
+          -1000, 1000, [](auto& s) -> auto& { return s.exploration.workspace.min(); }),
+      vector3(
+          "workspace.max_m", "upper corner of that box, metres", Kind::Numbers, -1000, 1000,
+          [](auto& s) -> auto& { return s.exploration.workspace.max(); }),
+      number("fusion.truncation_m",
+             "truncation of the signed distance, metres, at least 2.1 voxels (section 3)", 1e-4, 100,
+             AT(exploration.fusion.truncation_m)),
+      integer("fusion.max_weight", "observations at which a voxel's weight saturates (section 10)", 1, 60000,
+              AT(exploration.fusion.max_weight)),
+      integer("fusion.observations_per_frame", "what one frame counts for; 10 for recorded stops", 1, 60000,
+              AT(exploration.fusion.observations_per_frame)),
+      vector3("dataset.position_m", "placement of recorded data in the world, metres", Kind::Numbers, -10000,
+              10000, AT(dataset_position_m)),
+      quaternion("dataset.quaternion_xyzw", "placement of recorded data in the world, unit quaternion",
+                 AT(dataset_orientation)),
+  };
+}
+
+std::vector<Field> plannerFields() {
+  return {
+      integer("contours.weight_threshold", "W_th, observations from which a voxel is known (section 4)", 1,
+              1000, AT(exploration.planner.contours.weight_threshold)),
+      number("contours.group_distance_m", "D_th, reach of a group of contour voxels, metres (section 4)",
+             1e-6, 10, AT(exploration.planner.contours.group_distance_m)),
+      angle("contours.group_angle_deg", "A_th, normals of a group differ by less, degrees (D-B3)", 1e-6, 180,
+            AT(exploration.planner.contours.group_angle_rad)),
+      flag("contours.occupied_six_neighbours", "ablation: 6 neighbours instead of 18 for occupied (D-B1)",
+           AT(exploration.planner.contours.occupied_six_neighbours)),
+      flag("contours.unknown_eighteen_neighbours", "ablation: 18 neighbours instead of 6 for unknown (D-B1)",
+           AT(exploration.planner.contours.unknown_eighteen_neighbours)),
+      list("views.distances_m", "sensor to contour point, metres (section 5)", 0.01, 100, 16,
+           AT(exploration.planner.views.distances_m)),
+      angle("views.tilt_deg", "four extra directions from the normal, degrees (D-B6)", 0, 90,
+            AT(exploration.planner.views.tilt_rad)),
+      integer("views.rolls", "equal steps of a full turn about the axis (section 5)", 1, 64,
+              AT(exploration.planner.views.rolls)),
+      number("segmentation.voxel_m", "VCCS voxel, metres (D-B34)", 1e-4, 10,
+             AT(exploration.planner.segmentation.voxel_m)),
+      number("segmentation.seed_m", "VCCS seed spacing, metres, above the voxel (D-B34)", 1e-4, 10,
+             AT(exploration.planner.segmentation.seed_m)),
+      number("segmentation.spatial_weight", "VCCS weight of distance (D-B34)", 0, 1000,
+             AT(exploration.planner.segmentation.spatial_weight)),
+      number("segmentation.normal_weight", "VCCS weight of normals (D-B34)", 0, 1000,
+             AT(exploration.planner.segmentation.normal_weight)),
+      angle("segmentation.concavity_tolerance_deg", "LCCP, degrees (D-B34)", 0, 180,
+            AT(exploration.planner.segmentation.concavity_tolerance_rad)),
+      flag("segmentation.smoothness_check", "LCCP: steps between patches separate (D-B34)",
+           AT(exploration.planner.segmentation.smoothness_check)),
+      number("segmentation.smoothness", "LCCP: step allowed, share of the seed spacing (D-B34)", 0, 100,
+             AT(exploration.planner.segmentation.smoothness)),
+      integer("segmentation.k_convexity", "LCCP: common convex neighbours wanted (D-B34)", 0, 3,
+              AT(exploration.planner.segmentation.k_convexity)),
+      flag("segmentation.sanity_check", "LCCP: sanity criterion (D-B34)",
+           AT(exploration.planner.segmentation.sanity_check)),
+      integer("segmentation.min_segment_supervoxels",
+              "segments up to this size join their largest neighbour, 0 = off (D-B34)", 0, 10000,
+              AT(exploration.planner.segmentation.min_segment_supervoxels)),
+      number("saliency.isolation_distance_m", "B_th, metres (section 7)", 1e-6, 0.2,
+             AT(exploration.planner.saliency.isolation_distance_m)),
+      number("saliency.max_distance_m", "distances to other segments are kept up to here, metres", 1e-3, 10,
+             AT(exploration.planner.saliency.max_distance_m)),
+      integer("saliency.min_points", "smaller segments have saliency 0 (D-B17)", 1, 1000000,
+              AT(exploration.planner.saliency.min_points)),
+      flag("saliency.use_isolation", "ablation if false: isolation is 1 (section 7)",
+           AT(exploration.planner.saliency.use_isolation)),
+      flag("saliency.use_roundness", "ablation if false: roundness is 1 (section 7)",
+           AT(exploration.planner.saliency.use_roundness)),
+  };
+}
+
+std::vector<Field> gainFields() {
+  return {
+      number("gain.sphere_margin_m", "added to the radius of a segment's sphere, metres (section 8)", 0, 100,
+             AT(exploration.planner.gain.sphere_margin_m)),
+      number("gain.threshold", "least gain of a view, rays at full resolution (D-B12)", 0, 1e9,
+             AT(exploration.planner.gain.gain_threshold)),
+      integer("gain.reduction", "rays are cast at 1/reduction of the resolution per axis (D-B11)", 1, 64,
+              AT(exploration.planner.gain.reduction)),
+      choice<OutsideUnknown>(
+          "gain.outside", "unknown voxels outside the sphere end a ray or not (D-B9)",
+          {{"opaque", OutsideUnknown::Opaque}, {"transparent", OutsideUnknown::Transparent}},
+          AT(exploration.planner.gain.outside)),
+      flag("gain.exclude_executed", "poses near one already taken are not offered again (D-B15)",
+           AT(exploration.planner.gain.exclude_executed)),
+      number("gain.executed_distance_m", "how near, metres (D-B15)", 0, 100,
+             AT(exploration.planner.gain.executed_distance_m)),
+      angle("gain.executed_angle_deg", "how near, degrees (D-B15)", 0, 180,
+            AT(exploration.planner.gain.executed_angle_rad)),
+      flag("gain.exclude_disappointing", "contours that delivered nothing are not offered again (D-B33)",
+           AT(exploration.planner.gain.exclude_disappointing)),
+      number("gain.disappointing_share", "realised / predicted gain below which a view disappoints (D-B33)",
+             0, 1, AT(exploration.planner.gain.disappointing_share)),
+      number("gain.disappointing_distance_m", "contour points this near are dropped, metres (D-B33)", 0, 100,
+             AT(exploration.planner.gain.disappointing_distance_m)),
+  };
+}
+
+std::vector<Field> robotFields() {
+  return {
+      number("robot.body_radius_m", "of the free-flying sensor, metres (D-B26)", 0, 10,
+             AT(free_flyer.body_radius_m)),
+      number("robot.cell_m", "collision cell, metres (section 10)", 1e-3, 10, AT(free_flyer.cell_m)),
+      number("robot.reach_m", "radius of the ball the sensor stays in, metres, 0 = no limit (section 10)", 0,
+             1000, AT(free_flyer.reach_m)),
+      vector3("robot.reach_center_m", "centre of that ball, world, metres (section 10)", Kind::Numbers, -1000,
+              1000, AT(free_flyer.reach_center_m)),
+      number("robot.min_height_m", "the sensor stays above, world z, metres", -1000, 1000,
+             AT(free_flyer.min_height_m)),
+      number("robot.check_step_m", "spacing of collision checks along a path, metres", 1e-4, 1,
+             AT(free_flyer.check_step_m)),
+      integer("robot.rrt_iterations", "of RRT-Connect, per query", 1, 10000000,
+              AT(free_flyer.rrt_iterations)),
+      number("robot.rrt_range_m", "longest edge of its trees, metres", 1e-3, 100, AT(free_flyer.rrt_range_m)),
+      number("robot.safety_time_s", "wall clock after which a query is given up, seconds", 1e-3, 86400,
+             AT(free_flyer.safety_time_s)),
+      number("robot.speed_m_per_s", "of the simulated motion, metres a second", 1e-4, 100,
+             AT(free_flyer.speed_m_per_s)),
+  };
+}
+
+#undef AT
+
+std::vector<Field> allFields() {
+  std::vector<Field> all;
+  for (auto* part : {explorationFields, cameraFields, mapFields, plannerFields, gainFields, robotFields})
+    for (Field& field : part()) all.push_back(std::move(field));
+  return all;
+}
+
+}  // namespace
+
+const std::vector<Field>& fields() {
+  static const std::vector<Field> all = allFields();
+  return all;
+}
+
+const Field* find(std::string_view key) {
+  for (const Field& field : fields())
+    if (field.key == key) return &field;
+  return nullptr;
+}
+
+}  // namespace vantage::config

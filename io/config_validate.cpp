@@ -1,0 +1,41 @@
+#include <stdexcept>
+
+#include "core/geometry/check.h"
+#include "io/config_file.h"
+
+namespace vantage {
+namespace {
+
+/// How the structs fit together; each struct checks its own fields.
+void validateTogether(const Settings& settings) {
+  const GridGeometry& volume = settings.exploration.volume;
+  constexpr double kMostVoxels = 2e9;  // 8 GB
+  requireInRange("volume.size (product)", volume.size.cast<double>().prod(), 8.0, kMostVoxels);
+  const Box& workspace = settings.exploration.workspace;
+  if (workspace.isEmpty() || !(workspace.volume() > 0.0))
+    throw std::invalid_argument("workspace.min_m is not below workspace.max_m in x, y and z; swap them");
+  if (!workspace.intersects(volume.bounds()))
+    throw std::invalid_argument("workspace lies outside the mapped volume; change workspace.* or volume.*");
+  settings.exploration.fusion.validate(volume.voxel_size_m);
+}
+
+}  // namespace
+
+void SensorNoiseConfig::validate() const {
+  requireInRange("camera.noise_at_1m_m", noise_at_1m_m, 0.0, 1.0);
+  requireInRange("camera.emitter_offset_m", emitter_offset_m, -1.0, 1.0);
+}
+
+void Settings::validate() const {
+  try {
+    camera.validate();
+    sensor.validate();
+    free_flyer.validate();
+    validateTogether(*this);
+    exploration.validate();
+  } catch (const std::invalid_argument& error) {
+    throw InputError("configuration", error.what());
+  }
+}
+
+}  // namespace vantage

@@ -1,0 +1,1 @@
+vantage_test(config_file_test config_file_test.cpp suggest_test.cpp LIBS vantage_io_data)
