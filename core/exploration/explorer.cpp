@@ -1,33 +1,14 @@
 #include "core/exploration/explorer.h"
 
-#include <chrono>
 #include <utility>
 
 #include "core/exploration/map_metrics.h"
+#include "core/exploration/plan_view.h"
+#include "core/exploration/stopwatch.h"
 #include "core/geometry/check.h"
 
 namespace vantage {
 namespace {
-
-/// Wall-clock seconds since construction.
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-/// Runs `work` and stores its duration.
-template <class Work>
-auto timed(std::optional<double>& seconds, Work&& work) {
-  const Stopwatch watch;
-  auto result = std::forward<Work>(work)();
-  seconds = watch.seconds();
-  return result;
-}
 
 template <class T>
 std::shared_ptr<const std::decay_t<T>> share(T&& value) {
@@ -88,7 +69,9 @@ struct Explorer::State {
   bool scanInto(StepRecord& record, const std::vector<Pose>& poses, bool clear_start,
                 const RunControl& control);
   void plan(StepRecord& record, const RunControl& control);
-  ViewSearch search(const StepRecord& record, const RunControl& control);
+  void measureCoverage(StepRecord& record) const;
+  void markTowardObject(StepRecord& record) const;
+  static void reportVerdict(StepRecord& record, const MotionPlan& verdict);
   void realise(StepRecord& previous, const StepRecord& scanned, std::uint64_t unknown_before);
   std::uint64_t unknownInRegion(const StepRecord& record) const;
 };
@@ -143,83 +126,57 @@ bool Explorer::State::scanInto(StepRecord& record, const std::vector<Pose>& pose
   return true;
 }
 
-/// Algorithm 1, Monica & Aleotti 2017, one named call per stage.
 void Explorer::State::plan(StepRecord& record, const RunControl& control) {
-  const ContourPlannerConfig& planner = config.planner;
-  const bool segments = planner.segment_by_segment;
-  Timings& t = record.timings;
-  std::optional<double> untimed;  // the baseline needs no surface; it is kept for coverage and pictures
-
-  record.contours = share(timed(t.contours, [&] { return extractContours(volume, planner.contours); }));
-  publish(record, Stage::Contours);
-  control.check();
-
-  record.surface = share(timed(segments ? t.surface : untimed,
-                               [&] { return extractSurface(volume, planner.contours.weight_threshold); }));
-  if (truth) record.metrics.coverage = surfaceCoverage(truth->observableSurface(), *record.surface);
-  publish(record, Stage::Surface);
-  control.check();
-
-  if (segments) {
-    record.labels =
-        share(timed(t.segmentation, [&] { return segmentSurface(*record.surface, planner.segmentation); }));
-    publish(record, Stage::Segmentation);
-    control.check();
-    record.saliency = share(timed(
-        t.saliency, [&] { return computeSaliency(*record.surface, *record.labels, planner.saliency); }));
-    publish(record, Stage::Saliency);
-    control.check();
-  }
-
-  record.positions = share(
-      timed(t.generation, [&] { return contourViewPositions(record.contours->points, planner.views); }));
-  if (segments)
-    record.point_labels =
-        share(assignContourPoints(record.contours->points, *record.surface, *record.labels));
-  publish(record, Stage::Generation);
-  control.check();
-
   const Stopwatch mapping;
   robot.observe(states);
-  t.collision_map = mapping.seconds();
-  record.search = share(search(record, control));
-  t.evaluation = record.search->evaluation_s;
-  t.motion_planning = record.search->motion_planning_s;
-  if (truth && record.hasView()) {
-    const ContourPoint& point = record.contours->points[record.search->chosen->contour_point];
-    record.toward_object = truth->objectDistance(point.position_m) <= kObjectMargin_m;
-  }
-  publish(record, Stage::Evaluation);
-}
+  record.timings.collision_map = mapping.seconds();
 
-ViewSearch Explorer::State::search(const StepRecord& record, const RunControl& control) {
-  static const std::vector<std::uint32_t> kNoLabels;
-  static const Saliency kNoSaliency;
-  const ViewSearchInput input{.states = states,
-                              .camera = camera.model(),
-                              .workspace = config.workspace,
-                              .points = record.contours->points,
-                              .positions = *record.positions,
-                              .point_labels = record.point_labels ? *record.point_labels : kNoLabels,
-                              .saliency = record.saliency ? *record.saliency : kNoSaliency,
-                              .executed = executed,
-                              .disappointing = disappointing};
   std::uint64_t tried = 0;
   MotionPlan reported;  // where the verdict is only reported: of the last pose asked for, i.e. the chosen one
-  const ReachPose reach_pose = [&](const Pose& pose) {
+  const ReachPose reach = [&](const Pose& pose) {
     MotionPlan plan =
-        reach(pose, (config.seed << 32) + static_cast<std::uint64_t>(record.step) * 1000003 + tried++);
+        robot.plan(pose, (config.seed << 32) + static_cast<std::uint64_t>(record.step) * 1000003 + tried++);
     if (config.enforce_reachability) return plan;
     reported = plan;
     plan.verdict = Reachability::Reachable;
     return plan;
   };
-  ViewSearch result = searchView(input, config.planner, reach_pose, control);
-  if (!config.enforce_reachability && result.chosen) {
-    result.chosen->path = reported;
-    result.segments[result.chosen->search].scores[result.chosen->rank].reachability = reported.verdict;
-  }
-  return result;
+  const auto publish_stage = [&](Stage stage) {
+    if (stage == Stage::Surface) measureCoverage(record);
+    if (stage == Stage::Evaluation) {
+      if (!config.enforce_reachability) reportVerdict(record, reported);
+      markTowardObject(record);
+    }
+    publish(record, stage);
+  };
+  const PlanViewInput input{.volume = volume,
+                            .states = states,
+                            .camera = camera.model(),
+                            .workspace = config.workspace,
+                            .config = config.planner,
+                            .executed = executed,
+                            .disappointing = disappointing};
+  planView(record, input, reach, publish_stage, control);
+}
+
+void Explorer::State::measureCoverage(StepRecord& record) const {
+  if (truth) record.metrics.coverage = surfaceCoverage(truth->observableSurface(), *record.surface);
+}
+
+/// evaluation.md, section 2.
+void Explorer::State::markTowardObject(StepRecord& record) const {
+  if (!truth || !record.hasView()) return;
+  const ContourPoint& point = record.contours->points[record.search->chosen->contour_point];
+  record.toward_object = truth->objectDistance(point.position_m) <= kObjectMargin_m;
+}
+
+/// Puts the true verdict in the place of the one that let the pose be chosen.
+void Explorer::State::reportVerdict(StepRecord& record, const MotionPlan& verdict) {
+  if (!record.hasView()) return;
+  ViewSearch search = *record.search;
+  search.chosen->path = verdict;
+  search.segments[search.chosen->search].scores[search.chosen->rank].reachability = verdict.verdict;
+  record.search = share(std::move(search));
 }
 
 std::uint64_t Explorer::State::unknownInRegion(const StepRecord& record) const {

@@ -1,0 +1,73 @@
+#include "core/exploration/plan_view.h"
+
+#include <utility>
+
+#include "core/exploration/stopwatch.h"
+
+namespace vantage {
+namespace {
+
+/// The result of `work`, shared and immutable; stores its duration.
+template <class Work>
+auto timed(std::optional<double>& seconds, Work&& work) {
+  const Stopwatch watch;
+  auto result = std::make_shared<const decltype(work())>(work());
+  seconds = watch.seconds();
+  return result;
+}
+
+}  // namespace
+
+void planView(StepRecord& record, const PlanViewInput& input, const ReachPose& reach,
+              const std::function<void(Stage)>& publish, const RunControl& control) {
+  const ContourPlannerConfig& config = input.config;
+  const bool segments = config.segment_by_segment;
+  Timings& t = record.timings;
+  std::optional<double> untimed;  // the baseline needs no surface; it is kept for coverage and pictures
+  const auto finish = [&](Stage stage) {
+    publish(stage);
+    control.check();
+  };
+
+  record.contours = timed(t.contours, [&] { return extractContours(input.volume, config.contours); });
+  finish(Stage::Contours);
+
+  record.surface = timed(segments ? t.surface : untimed,
+                         [&] { return extractSurface(input.volume, config.contours.weight_threshold); });
+  finish(Stage::Surface);
+
+  if (segments) {
+    record.labels =
+        timed(t.segmentation, [&] { return segmentSurface(*record.surface, config.segmentation); });
+    finish(Stage::Segmentation);
+    record.saliency =
+        timed(t.saliency, [&] { return computeSaliency(*record.surface, *record.labels, config.saliency); });
+    finish(Stage::Saliency);
+  } else {
+    record.labels = std::make_shared<const Labels>();
+    record.saliency = std::make_shared<const Saliency>();
+  }
+
+  record.positions =
+      timed(t.generation, [&] { return contourViewPositions(record.contours->points, config.views); });
+  record.point_labels = std::make_shared<const std::vector<std::uint32_t>>(
+      segments ? assignContourPoints(record.contours->points, *record.surface, *record.labels)
+               : std::vector<std::uint32_t>());
+  finish(Stage::Generation);
+
+  const ViewSearchInput search_input{.states = input.states,
+                                     .camera = input.camera,
+                                     .workspace = input.workspace,
+                                     .points = record.contours->points,
+                                     .positions = *record.positions,
+                                     .point_labels = *record.point_labels,
+                                     .saliency = *record.saliency,
+                                     .executed = input.executed,
+                                     .disappointing = input.disappointing};
+  record.search = std::make_shared<const ViewSearch>(searchView(search_input, config, reach, control));
+  t.evaluation = record.search->evaluation_s;
+  t.motion_planning = record.search->motion_planning_s;
+  finish(Stage::Evaluation);
+}
+
+}  // namespace vantage
