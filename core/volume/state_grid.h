@@ -9,8 +9,8 @@
 namespace vantage {
 
 /// The one answer to "is this voxel unknown, free or occupied?" that ray casters, collision checks and the
-/// viewer read. Derived from a map and updated by the bricks that changed; one byte a voxel for the state, and
-/// one for the free radius.
+/// viewer read. Derived from a map and updated by the bricks that changed; one byte a voxel for the state,
+/// and one for the free radius.
 class StateGrid {
  public:
   StateGrid() = default;
@@ -19,14 +19,18 @@ class StateGrid {
 
   const GridGeometry& geometry() const { return geometry_; }
 
-  VoxelState at(int i, int j, int k) const { return static_cast<VoxelState>(states_[geometry_.index(i, j, k)]); }
+  VoxelState at(int i, int j, int k) const {
+    return static_cast<VoxelState>(states_[geometry_.index(i, j, k)]);
+  }
   VoxelState at(const Eigen::Vector3i& v) const { return at(v.x(), v.y(), v.z()); }
-  std::span<const std::uint8_t> states() const { return states_; }
+  std::span<const std::uint8_t> states() const { return {states_.data(), geometry_.count()}; }
 
-  /// Chebyshev radius in voxels of the free cube around a voxel, capped at kMaxRadius: every voxel nearer than
-  /// the radius, in all axes, is free; 0 = the voxel itself is not. Space outside the grid counts as free
-  /// (rays leave it there). Rays jump by it; results never depend on it.
-  std::span<const std::uint8_t> freeRadius() const { return free_radius_; }
+  /// Chebyshev radius in voxels of the free cube around a voxel, capped at kMaxRadius: every voxel nearer
+  /// than the radius, in all axes, is free; 0 = the voxel itself is not. Space outside the grid counts as
+  /// free (rays leave it there). Rays jump by it; results never depend on it. kReadMargin bytes beyond the
+  /// span may be read, so that four bytes can be fetched at any voxel.
+  std::span<const std::uint8_t> freeRadius() const { return {free_radius_.data(), geometry_.count()}; }
+  static constexpr int kReadMargin = 64;
   static constexpr int kMaxRadius = 15;
 
   /// Takes over the bricks that changed in the map, then the free radius near them.
@@ -42,8 +46,8 @@ class StateGrid {
 
  private:
   GridGeometry geometry_;
-  std::vector<std::uint8_t> states_;
-  std::vector<std::uint8_t> free_radius_;
+  BulkVector<std::uint8_t> states_;       // kReadMargin more than voxels
+  BulkVector<std::uint8_t> free_radius_;  // the same
 };
 
 /// State grid of a whole volume.

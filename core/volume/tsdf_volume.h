@@ -10,6 +10,7 @@
 #include "core/geometry/depth_image.h"
 #include "core/geometry/grid_geometry.h"
 #include "core/geometry/pose.h"
+#include "core/volume/bulk_memory.h"
 #include "core/volume/voxel_state.h"
 
 namespace vantage {
@@ -77,7 +78,7 @@ class TsdfVolume {
  private:
   GridGeometry geometry_;
   BrickLayout bricks_;
-  std::vector<TsdfVoxel> voxels_;
+  BulkVector<TsdfVoxel> voxels_;
 };
 
 /// Bricks of a grid as a set: cheap to merge, iterated in ascending order.
@@ -109,15 +110,15 @@ struct FusionConfig {
 };
 
 struct FusionResult {
-  BrickSet changed;                   ///< bricks in which a value or weight changed
-  std::uint64_t voxels_updated = 0;   ///< voxels observed by this frame
+  BrickSet changed;                  ///< bricks in which a value or weight changed
+  std::uint64_t voxels_updated = 0;  ///< voxels observed by this frame
 };
 
 /// Fuses one depth frame. A voxel centre is projected into the image (nearest pixel), D is the measured range
-/// along that pixel's ray; sdf = D - |voxel - camera|. Invalid pixels update nothing (D-B29); sdf < -truncation
-/// is skipped; else the running mean of min(1, sdf / truncation) is updated. Measurements outside the camera's
-/// range limits (depth along z) are invalid. Deterministic for any number of threads.
-/// \throws std::invalid_argument if the image is not of the camera's size.
+/// along that pixel's ray; sdf = D - |voxel - camera|. Invalid pixels update nothing (D-B29); sdf <
+/// -truncation is skipped; else the running mean of min(1, sdf / truncation) is updated. Measurements outside
+/// the camera's range limits (depth along z) are invalid. Deterministic for any number of threads. \throws
+/// std::invalid_argument if the image is not of the camera's size.
 FusionResult fuseDepth(TsdfVolume& volume, const DepthImage& depth, const PinholeCamera& camera,
                        const Pose& T_world_camera, const FusionConfig& config);
 
@@ -125,8 +126,9 @@ FusionResult fuseDepth(TsdfVolume& volume, const DepthImage& depth, const Pinhol
 FusionResult fuseDepthReference(TsdfVolume& volume, const DepthImage& depth, const PinholeCamera& camera,
                                 const Pose& T_world_camera, const FusionConfig& config);
 
-/// Marks every voxel whose centre lies within `radius_m` of a point as seen empty, weight 10 (D-B28): the start
-/// bubble of the sensor, without which every pose is in collision. Voxels already observed keep their state.
+/// Marks every voxel whose centre lies within `radius_m` of a point as seen empty, weight 10 (D-B28): the
+/// start bubble of the sensor, without which every pose is in collision. Voxels already observed keep their
+/// state.
 BrickSet clearSphere(TsdfVolume& volume, const Eigen::Vector3d& center_world, double radius_m);
 
 }  // namespace vantage
