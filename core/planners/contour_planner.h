@@ -6,47 +6,51 @@
 #include <span>
 #include <vector>
 
-#include "core/run_control.h"
 #include "core/motion/path_planner.h"
 #include "core/perception/contours.h"
 #include "core/perception/saliency.h"
 #include "core/raycasting/uniform_caster.h"
+#include "core/run_control.h"
 #include "core/views/contour_views.h"
 
 namespace vantage {
 
 /// Scoring and selection (sections 2 and 8).
 struct GainConfig {
-  double sphere_margin_m = 0.20;                           ///< added to the segment's radius, metres, >= 0
-  double gain_threshold = 700.0;                           ///< rays at full resolution (D-B12)
-  int reduction = 4;                                       ///< 1/reduction of the resolution per axis; gains are scaled by its square (D-B11)
-  OutsideUnknown outside = OutsideUnknown::Opaque;         ///< D-B9
-  bool exclude_executed = true;                            ///< D-B15
-  double executed_distance_m = 0.05;                       ///< D-B15, metres
-  double executed_angle_rad = 0.17453292519943295;            ///< D-B15, radians; 10 deg
-  bool exclude_disappointing = false;                      ///< D-B33
-  double disappointing_share = 0.10;                       ///< realised / predicted below which D-B33 strikes
-  double disappointing_distance_m = 0.05;                  ///< D-B33, metres
+  double sphere_margin_m = 0.20;  ///< added to the segment's radius, metres, >= 0
+  double gain_threshold = 700.0;  ///< rays at full resolution (D-B12)
+  int reduction = 4;  ///< 1/reduction of the resolution per axis; gains are scaled by its square (D-B11)
+  OutsideUnknown outside = OutsideUnknown::Opaque;  ///< D-B9
+  bool exclude_executed = true;                     ///< D-B15
+  double executed_distance_m = 0.05;                ///< D-B15, metres
+  double executed_angle_rad = 0.17453292519943295;  ///< D-B15, radians; 10 deg
+  bool exclude_disappointing = false;               ///< D-B33
+  double disappointing_share = 0.10;                ///< realised / predicted below which D-B33 strikes
+  double disappointing_distance_m = 0.05;           ///< D-B33, metres
   bool operator==(const GainConfig&) const = default;
+  /// \throws std::invalid_argument naming field, value and range.
   void validate() const;
 };
 
+/// Everything that steers the contour planner, stage by stage.
 struct ContourPlannerConfig {
   ContourConfig contours;
   ContourViewConfig views;
   SegmentationConfig segmentation;
   SaliencyConfig saliency;
   GainConfig gain;
-  bool segment_by_segment = true;  ///< false: the standard baseline, every pose over the whole workspace (D-B16)
+  bool segment_by_segment =
+      true;  ///< false: the standard baseline, every pose over the whole workspace (D-B16)
+  /// Checks every part. \throws std::invalid_argument naming field, value and range.
   void validate() const;
 };
 
 /// Everything known about one scored pose.
 struct PoseScore {
-  std::uint32_t id = 0;          ///< candidate id
-  double gain = 0.0;             ///< rays at full resolution: first-hit unknown rays x reduction^2
-  std::uint32_t unknown = 0;     ///< rays cast that end on unknown inside the sphere (or workspace)
-  std::uint32_t occupied = 0;    ///< rays cast that end on occupied inside it
+  std::uint32_t id = 0;        ///< candidate id
+  double gain = 0.0;           ///< rays at full resolution: first-hit unknown rays x reduction^2
+  std::uint32_t unknown = 0;   ///< rays cast that end on unknown inside the sphere (or workspace)
+  std::uint32_t occupied = 0;  ///< rays cast that end on occupied inside it
   Reachability reachability = Reachability::NotChecked;
   bool executed_before = false;  ///< excluded by D-B15
   std::int32_t histogram = -1;   ///< index into SegmentSearch::histograms, -1 = none
@@ -54,18 +58,23 @@ struct PoseScore {
 
 /// What the search did with one segment (lines 7-17 of Algorithm 1).
 struct SegmentSearch {
-  std::int32_t segment = -1;     ///< index into Saliency::segments; -1 = points without a segment (D-B13) or the baseline
+  std::int32_t segment =
+      -1;  ///< index into Saliency::segments; -1 = points without a segment (D-B13) or the baseline
   double saliency = 0.0;
-  Sphere sphere;                 ///< radius 0 for the baseline: its region is the workspace
+  /// Region whose unknown counts: the segment's bounding sphere (D-B13: that of its contour points) plus the
+  /// margin. Radius 0 for the baseline: its region is the workspace.
+  Sphere sphere;
   std::vector<std::uint32_t> contour_points;
   std::uint32_t poses_generated = 0;
-  bool scored = false;           ///< false: the search ended before this segment
-  std::vector<PoseScore> scores; ///< by decreasing gain, ties to the lowest id; empty if not scored
-  /// Per distinct cast: first-hit unknown rays by distance to the sphere centre, bins of kHistogramWidth_m from the
-  /// segment's radius outward (bin 0: inside the radius). Poses rolled by half a turn share one.
+  bool scored = false;            ///< false: the search ended before this segment
+  std::vector<PoseScore> scores;  ///< by decreasing gain, ties to the lowest id; empty if not scored
+  /// Per distinct cast: first-hit unknown rays by distance to the sphere centre, bins of kHistogramWidth_m
+  /// from the bounding sphere's radius outward, without the margin (bin 0: inside the radius). With opaque
+  /// outside, `unknown` under a margin of k bins is the sum of bins 0..k. Poses rolled by half a turn share
+  /// one. None for the baseline.
   std::vector<std::vector<std::uint32_t>> histograms;
 };
-inline constexpr int kHistogramBins = 52;          ///< margins up to 0.50 m, the last bin holds the rest
+inline constexpr int kHistogramBins = 52;  ///< margins up to 0.50 m, the last bin holds the rest
 inline constexpr double kHistogramWidth_m = 0.01;
 
 /// Machine-independent work and why poses fell out.
@@ -73,18 +82,19 @@ struct SearchCounts {
   std::uint64_t poses_generated = 0;
   std::uint64_t poses_scored = 0;
   std::uint64_t poses_above_threshold = 0;
-  std::uint64_t poses_unreachable = 0;       ///< above the threshold, tried before the chosen one and skipped
-  std::uint64_t poses_executed_before = 0;
-  std::uint64_t rays = 0;                    ///< rays cast
-  std::uint64_t voxels_visited = 0;
-  std::uint64_t paths_planned = 0;           ///< calls of the path planner
+  std::uint64_t poses_unreachable = 0;      ///< above the threshold, tried before the chosen one and skipped
+  std::uint64_t poses_executed_before = 0;  ///< above the threshold, before the chosen one, skipped by D-B15
+  std::uint64_t rays = 0;                   ///< rays cast to score poses; shared ones once
+  std::uint64_t voxels_visited = 0;         ///< by the plain walks of the scored poses' distinct casts
+  std::uint64_t paths_planned = 0;          ///< calls of the path planner
 };
 
+/// The next best view.
 struct ChosenView {
   std::uint32_t id = 0;
   std::uint32_t contour_point = 0;
-  std::uint32_t search = 0;       ///< index into ViewSearch::segments
-  std::uint32_t rank = 0;         ///< position in that segment's scores
+  std::uint32_t search = 0;  ///< index into ViewSearch::segments
+  std::uint32_t rank = 0;    ///< position in that segment's scores
   Pose T_world_camera = Pose::Identity();
   double gain = 0.0;              ///< rays, as PoseScore::gain
   std::uint64_t gain_voxels = 0;  ///< distinct first-hit unknown voxels in the region, full resolution
@@ -93,23 +103,25 @@ struct ChosenView {
 
 /// Result of the evaluation stage.
 struct ViewSearch {
-  std::vector<SegmentSearch> segments;  ///< in the order in which they are tried; all with contour points, also those not reached
+  std::vector<SegmentSearch>
+      segments;  ///< in the order in which they are tried; all with contour points, also those not reached
   std::optional<ChosenView> chosen;
   SearchCounts counts;
-  double evaluation_s = 0.0;            ///< ray casting and ranking
-  double motion_planning_s = 0.0;       ///< reachability
+  double evaluation_s = 0.0;       ///< ray casting and ranking, without the diagnostic `gain_voxels`
+  double motion_planning_s = 0.0;  ///< reachability
 };
 
 /// Contour points of each segment: the segment of the nearest point of the whole cloud (line 8). Result: one
-/// label per contour point, 0 = nearest cloud point has no label, or there is no cloud.
-std::vector<std::uint32_t> assignContourPoints(const std::vector<ContourPoint>& points, const SurfaceCloud& cloud,
-                                               const Labels& labels);
+/// label per contour point, 0 = nearest cloud point has no label, or there is no cloud. Equally near points:
+/// the lowest index decides. \throws std::invalid_argument unless there is one label per cloud point.
+std::vector<std::uint32_t> assignContourPoints(const std::vector<ContourPoint>& points,
+                                               const SurfaceCloud& cloud, const Labels& labels);
 
 /// Input of the search: the products of the earlier stages.
 struct ViewSearchInput {
   const StateGrid& states;
   const PinholeCamera& camera;
-  const Box& workspace;                            ///< limits the baseline's gain
+  const Box& workspace;  ///< limits the baseline's gain
   const std::vector<ContourPoint>& points;
   const std::vector<ViewPosition>& positions;
   const std::vector<std::uint32_t>& point_labels;  ///< assignContourPoints(); ignored by the baseline
@@ -121,13 +133,16 @@ struct ViewSearchInput {
 /// Answers whether the robot can take a pose and how. Called in rank order, from the calling thread.
 using ReachPose = std::function<MotionPlan(const Pose& T_world_camera)>;
 
-/// Algorithm 1, lines 6-17: segments by decreasing saliency, poses by decreasing gain, the first one above the
-/// threshold that can be reached. With segment_by_segment off: the standard baseline.
-ViewSearch searchView(const ViewSearchInput& input, const ContourPlannerConfig& config, const ReachPose& reach,
-                      const RunControl& control);
+/// Algorithm 1, lines 6-17: segments by decreasing saliency, poses by decreasing gain, the first one above
+/// the threshold that can be reached. With segment_by_segment off: the standard baseline. A position that was
+/// found out of reach, in collision or without a path is not asked for again with another roll. \throws
+/// Cancelled when a stop is requested; std::invalid_argument for a config out of range or inputs that don't
+/// belong together.
+ViewSearch searchView(const ViewSearchInput& input, const ContourPlannerConfig& config,
+                      const ReachPose& reach, const RunControl& control);
 
-/// Scores all poses of one group of contour points without regard to threshold or reachability; fills scores
-/// and histograms of `search`.
+/// Scores all poses of one group of contour points without regard to threshold or reachability: reads
+/// `segment` and `contour_points` of `search`, fills the rest of it and adds the work to `counts`.
 void scoreSegment(const ViewSearchInput& input, const ContourPlannerConfig& config, SegmentSearch& search,
                   SearchCounts& counts, const RunControl& control);
 
