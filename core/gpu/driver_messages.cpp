@@ -50,6 +50,7 @@ std::string DriverMessages::finish() {
   std::istringstream lines(caught);
   for (std::string line; std::getline(lines, line);) {
     if (isDriverMessage(line)) {
+      if (of_driver.find(line) != std::string::npos) continue;  // each attempt repeats it
       of_driver += (of_driver.empty() ? "" : "\n") + line;
     } else if (!line.empty()) {
       std::fprintf(stderr, "%s\n", line.c_str());

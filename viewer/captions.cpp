@@ -1,0 +1,175 @@
+#include "viewer/captions.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+
+namespace vantage {
+namespace {
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  std::array<char, 512> text;
+  std::snprintf(text.data(), text.size(), pattern, values...);
+  return text.data();
+}
+
+std::string plural(std::uint64_t count, const std::string& noun) {
+  return grouped(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string percent(double share) {
+  return format(share > 0.0 && share < 0.095 ? "%.1f %%" : "%.0f %%", 100.0 * share);
+}
+
+/// How a search is called in a sentence: "segment 7 (saliency 0.51)".
+std::string nameOf(const StepRecord& record, const SegmentSearch& search) {
+  if (search.segment < 0 || !record.saliency ||
+      search.segment >= static_cast<int>(record.saliency->segments.size())) {
+    return record.planner == "standard" ? "the whole workspace" : "points without a segment";
+  }
+  return "segment " + std::to_string(record.saliency->segments[search.segment].label) +
+         format(" (saliency %.2f)", search.saliency);
+}
+
+/// "7 in collision, 5 out of reach" among the views that rank above the chosen one.
+std::string refusals(const SegmentSearch& search, double threshold) {
+  std::map<Reachability, std::uint64_t> counts;
+  for (const PoseScore& score : search.scores) {
+    if (score.gain <= threshold) break;
+    if (score.reachability != Reachability::Reachable && score.reachability != Reachability::NotChecked) {
+      ++counts[score.reachability];
+    }
+  }
+  static const std::map<Reachability, std::string> kWords = {{Reachability::OutOfReach, "out of reach"},
+                                                             {Reachability::InCollision, "in collision"},
+                                                             {Reachability::NotConnected, "cut off"},
+                                                             {Reachability::NoPath, "without a path"},
+                                                             {Reachability::TimedOut, "out of time"}};
+  std::string text;
+  for (const auto& [verdict, count] : counts) {
+    const auto word = kWords.find(verdict);
+    if (word != kWords.end()) text += (text.empty() ? "" : ", ") + grouped(count) + " " + word->second;
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string grouped(std::uint64_t value) {
+  const std::string digits = std::to_string(value);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ' ';
+    text += digits[i];
+  }
+  return text;
+}
+
+std::string stepLine(const SceneFrame& frame) {
+  const std::string input = std::filesystem::path(frame.header.input).stem().string();
+  std::string text = input.empty() ? "run" : input;
+  const std::string& planner = frame.record.planner.empty() ? frame.header.planner : frame.record.planner;
+  if (!planner.empty()) text += "  ·  " + planner + " planner";
+  if (frame.record.closing) return text + "  ·  map after the last scan";
+  text += "  ·  step " + std::to_string(frame.record.step);
+  if (frame.record.stage != Stage::Done)
+    text += "  ·  after stage " + std::string(toString(frame.record.stage));
+  return text;
+}
+
+std::string scanFigures(const SceneFrame& frame) {
+  const StepRecord& record = frame.record;
+  if (!record.depth) return "No depth image was recorded.";
+  std::uint64_t valid = 0;
+  for (const float depth : record.depth->depth.depth_m) valid += DepthImage::valid(depth);
+  const std::uint64_t pixels = std::max<std::size_t>(1, record.depth->depth.depth_m.size());
+  const Eigen::Vector3d eye = record.depth->T_world_camera.translation();
+  std::string text = plural(std::max<std::size_t>(1, record.scan.size()), "frame") + " fused";
+  if (record.depth->frame >= 0) text += format(" (recorded frame %d)", record.depth->frame);
+  text += format("; the last one from (%.2f, %.2f, %.2f) m has %s of its pixels valid.", eye.x(), eye.y(),
+                 eye.z(), percent(static_cast<double>(valid) / pixels).c_str());
+  return text;
+}
+
+std::string stateFigures(const SceneFrame& frame) {
+  const Box& box = frame.header.workspace;
+  const std::uint64_t unknown = frame.states.count(VoxelState::Unknown, box);
+  const std::uint64_t known =
+      frame.states.count(VoxelState::Free, box) + frame.states.count(VoxelState::Occupied, box);
+  const std::uint64_t all = std::max<std::uint64_t>(1, unknown + known);
+  std::string text = "Unknown: " + grouped(unknown) + " of " + grouped(unknown + known) +
+                     " voxels of the workspace (" + percent(static_cast<double>(unknown) / all) +
+                     "), voxels of " + format("%.1f mm.", frame.header.volume.voxel_size_m * 1e3);
+  if (frame.record.metrics.unknown_near_objects) {
+    text += " Within 5 cm of the objects: " + grouped(*frame.record.metrics.unknown_near_objects) + ".";
+  }
+  if (frame.record.metrics.coverage)
+    text += " Coverage of the objects: " + percent(*frame.record.metrics.coverage) + ".";
+  return text;
+}
+
+std::string contourFigures(const SceneFrame& frame) {
+  const auto& contours = frame.record.contours;
+  if (!contours || contours->voxels.empty())
+    return "No contours: no free voxel touches both surface and unknown.";
+  std::string text = plural(contours->voxels.size(), "contour voxel") +
+                     " (free, beside surface and unknown) reduced to " +
+                     plural(contours->points.size(), "contour point");
+  const int poses = frame.header.planner_config.views.posesPerPoint();
+  if (frame.record.positions) {
+    text += " with " + std::to_string(poses) +
+            " view poses each: " + plural(contours->points.size() * poses, "pose");
+  }
+  return text + ".";
+}
+
+std::string segmentFigures(const SceneFrame& frame) {
+  const StepRecord& record = frame.record;
+  if (!record.saliency || record.saliency->segments.empty()) return "No segments.";
+  std::string text = plural(record.saliency->segments.size(), "segment") + ". ";
+  if (!record.search || record.search->segments.empty()) return text + "None has contour points.";
+  text += "Tried in the order of saliency: ";
+  const auto& searches = record.search->segments;
+  const std::size_t shown = std::min<std::size_t>(searches.size(), 4);
+  for (std::size_t i = 0; i < shown; ++i) {
+    const std::string poses = plural(searches[i].poses_generated, "pose");
+    text += (i ? ", " : "") + nameOf(record, searches[i]) + ", " + poses;
+    if (i + 1 < shown) text += ";";
+  }
+  return text + (searches.size() > shown ? "; ..." : ".");
+}
+
+std::string viewFigures(const SceneFrame& frame) {
+  const StepRecord& record = frame.record;
+  if (!record.search) return "No views were evaluated.";
+  const ViewSearch& search = *record.search;
+  const double threshold = frame.header.planner_config.gain.gain_threshold;
+  const std::string limit = "the threshold of " + grouped(static_cast<std::uint64_t>(threshold)) + " rays";
+  if (!search.chosen) {
+    std::string text = "No view was chosen: " + plural(search.counts.poses_scored, "pose") + " scored, " +
+                       grouped(search.counts.poses_above_threshold) + " above " + limit;
+    if (search.counts.poses_unreachable > 0)
+      text += ", " + grouped(search.counts.poses_unreachable) + " of them cannot be reached";
+    return text + ".";
+  }
+  const ChosenView& chosen = *search.chosen;
+  const SegmentSearch* segment = shownSearch(record);
+  std::string text;
+  if (chosen.search > 0) text = plural(chosen.search, "more salient segment") + " had no view; ";
+  if (segment) text += (text.empty() ? "Tried first: " : "then ") + nameOf(record, *segment) + ". ";
+  text += "View " + std::to_string(chosen.id) + " gains " + grouped(static_cast<std::uint64_t>(chosen.gain)) +
+          " rays (" + plural(chosen.gain_voxels, "voxel") + "), above " + limit + ".";
+  const std::string refused = segment ? refusals(*segment, threshold) : "";
+  if (!refused.empty()) text += " Better views were skipped: " + refused + ".";
+  if (chosen.path.length_m > 0.0) {
+    text += format(" Path: %.2f m, %s.", chosen.path.length_m,
+                   chosen.path.straight ? "straight" : "around obstacles");
+  }
+  return text;
+}
+
+}  // namespace vantage

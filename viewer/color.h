@@ -1,0 +1,48 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace vantage {
+
+/// Linear in display values, each in [0, 1].
+struct Rgb {
+  double r = 0.0, g = 0.0, b = 0.0;
+  std::array<std::uint8_t, 3> bytes() const;
+  bool operator==(const Rgb&) const = default;
+};
+
+/// The colour of an 8-bit triple.
+constexpr Rgb rgb(int r, int g, int b) {
+  return {r / 255.0, g / 255.0, b / 255.0};
+}
+
+/// Colours of everything that has no scale. Neighbours differ in lightness as well as in hue (after Okabe and
+/// Ito).
+namespace palette {
+inline constexpr Rgb kPaper = rgb(250, 250, 248);
+inline constexpr Rgb kPanel = rgb(240, 241, 242);
+inline constexpr Rgb kInk = rgb(32, 36, 42);
+inline constexpr Rgb kFaintInk = rgb(104, 110, 118);
+inline constexpr Rgb kRule = rgb(200, 203, 207);
+inline constexpr Rgb kOccupied = rgb(122, 138, 158);
+inline constexpr Rgb kUnknown = rgb(230, 145, 0);
+inline constexpr Rgb kFree = rgb(86, 180, 233);
+inline constexpr Rgb kSurface = rgb(176, 180, 186);
+inline constexpr Rgb kNoSegment = rgb(150, 150, 150);
+inline constexpr Rgb kContour = rgb(0, 96, 160);
+inline constexpr Rgb kNormal = rgb(190, 30, 90);
+inline constexpr Rgb kChosen = rgb(214, 20, 70);
+inline constexpr Rgb kPath = rgb(0, 96, 180);
+inline constexpr Rgb kSensor = rgb(40, 44, 52);
+inline constexpr Rgb kUnreachable = rgb(70, 70, 74);
+inline constexpr Rgb kCandidate = rgb(90, 120, 160);
+}  // namespace palette
+
+/// Perceptually uniform maps, safe for colour-blind readers.
+enum class ColorMap { Viridis, Cividis };
+
+/// Colour at `t`, clamped to [0, 1].
+Rgb colorAt(ColorMap map, double t);
+
+}  // namespace vantage

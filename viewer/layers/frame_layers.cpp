@@ -1,0 +1,41 @@
+// What orients the eye: the workspace box and the axes of the world.
+#include "viewer/layers/layer.h"
+#include "viewer/layers/shapes.h"
+
+namespace vantage {
+
+LayerContent workspaceLayer(const SceneFrame& frame, const LayerStyle& style) {
+  LayerContent content;
+  const Box& box = frame.header.workspace;
+  if (box.isEmpty()) return content;
+  LineSet edges;
+  for (int c = 0; c < 8; ++c) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (c & (1 << axis)) continue;
+      edges.add(box.corner(static_cast<Box::CornerType>(c)),
+                box.corner(static_cast<Box::CornerType>(c | (1 << axis))));
+    }
+  }
+  content.props.push_back(lineActor(edges, palette::kRule, 1.2 * style.line_scale));
+  content.legend.push_back({LegendEntry::Mark::Line, palette::kRule, 1.0, "workspace"});
+  return content;
+}
+
+LayerContent axesLayer(const SceneFrame& frame, const LayerStyle& style) {
+  LayerContent content;
+  const Box& box = frame.header.workspace;
+  if (box.isEmpty()) return content;
+  const double length = 0.12 * box.sizes().maxCoeff();
+  const Eigen::Vector3d origin = box.min();
+  const char* names[3] = {"x", "y", "z"};
+  const Rgb colors[3] = {rgb(190, 50, 40), rgb(20, 130, 80), rgb(30, 80, 190)};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector3d end = origin + length * Eigen::Vector3d::Unit(axis);
+    content.props.push_back(tubeActor({origin, end}, 0.03 * length, colors[axis]));
+    content.props.push_back(labelProp(origin + 1.22 * length * Eigen::Vector3d::Unit(axis), names[axis],
+                                      style.label_px, colors[axis], true, false));
+  }
+  return content;
+}
+
+}  // namespace vantage

@@ -1,0 +1,246 @@
+#include "viewer/layers/shapes.h"
+
+#include <vtkBillboardTextActor3D.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkFloatArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkSphereSource.h>
+#include <vtkTextProperty.h>
+#include <vtkTubeFilter.h>
+#include <vtkTypeInt32Array.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+namespace vantage {
+namespace {
+
+vtkSmartPointer<vtkActor> makeActor(vtkPolyData* data, Rgb color) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  const bool colored = data->GetPointData()->GetScalars() || data->GetCellData()->GetScalars();
+  mapper->SetScalarVisibility(colored);
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(color.r, color.g, color.b);
+  return actor;
+}
+
+vtkSmartPointer<vtkPoints> toPoints(const std::vector<Eigen::Vector3f>& in) {
+  static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
+  vtkNew<vtkFloatArray> values;
+  values->SetNumberOfComponents(3);
+  values->SetNumberOfTuples(static_cast<vtkIdType>(in.size()));
+  if (!in.empty()) std::memcpy(values->GetPointer(0), in.data(), in.size() * sizeof(Eigen::Vector3f));
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetData(values);
+  return points;
+}
+
+/// Cells of N corners each, without a copy per cell.
+template <std::size_t N>
+vtkSmartPointer<vtkCellArray> toCells(const std::vector<std::array<std::uint32_t, N>>& in) {
+  vtkNew<vtkTypeInt32Array> offsets, corners;
+  offsets->SetNumberOfValues(static_cast<vtkIdType>(in.size() + 1));
+  corners->SetNumberOfValues(static_cast<vtkIdType>(in.size() * N));
+  for (std::size_t i = 0; i <= in.size(); ++i)
+    offsets->SetValue(static_cast<vtkIdType>(i), static_cast<int>(i * N));
+  if (!in.empty()) std::memcpy(corners->GetPointer(0), in.data(), in.size() * N * sizeof(std::uint32_t));
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->SetData(offsets, corners);
+  return cells;
+}
+
+vtkSmartPointer<vtkUnsignedCharArray> toColors(std::size_t count, auto&& bytes_of) {
+  auto colors = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  colors->SetNumberOfComponents(3);
+  colors->SetNumberOfTuples(static_cast<vtkIdType>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::array<std::uint8_t, 3> bytes = bytes_of(i);
+    colors->SetTypedTuple(static_cast<vtkIdType>(i), bytes.data());
+  }
+  return colors;
+}
+
+}  // namespace
+
+void LineSet::addDashed(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double dash_m) {
+  const double length = (b - a).norm();
+  const int dashes = std::max(1, static_cast<int>(std::ceil(length / (2.0 * dash_m))));
+  for (int i = 0; i < dashes; ++i) {
+    const double from = static_cast<double>(i) / dashes, to = (i + 0.55) / dashes;
+    add(a + from * (b - a), a + to * (b - a));
+  }
+}
+
+void LineSet::addCircle(const Eigen::Vector3d& center, double radius_m, const Eigen::Vector3d& axis) {
+  constexpr int kPieces = 72;
+  const Eigen::Vector3d u = axis.unitOrthogonal(), v = axis.normalized().cross(u);
+  const auto at = [&](int i) {
+    const double angle = 2.0 * std::numbers::pi * i / kPieces;
+    return Eigen::Vector3d(center + radius_m * (std::cos(angle) * u + std::sin(angle) * v));
+  };
+  for (int i = 0; i < kPieces; ++i) add(at(i), at(i + 1));
+}
+
+vtkSmartPointer<vtkActor> lineActor(const LineSet& lines, Rgb color, double width_px) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  for (const auto& [a, b] : lines.pieces) {
+    const vtkIdType ids[2] = {points->InsertNextPoint(a.data()), points->InsertNextPoint(b.data())};
+    cells->InsertNextCell(2, ids);
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetLines(cells);
+  if (!lines.colors.empty()) {
+    data->GetCellData()->SetScalars(
+        toColors(lines.colors.size(), [&](std::size_t i) { return lines.colors[i].bytes(); }));
+  }
+  auto actor = makeActor(data, color);
+  actor->GetProperty()->LightingOff();
+  actor->GetProperty()->SetLineWidth(static_cast<float>(width_px));
+  return actor;
+}
+
+vtkSmartPointer<vtkActor> dotActor(const std::vector<Eigen::Vector3d>& points_world,
+                                   const std::vector<Rgb>& colors, Rgb color, double size_px) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  for (const Eigen::Vector3d& p : points_world) {
+    const vtkIdType id = points->InsertNextPoint(p.data());
+    cells->InsertNextCell(1, &id);
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetVerts(cells);
+  if (!colors.empty()) {
+    data->GetPointData()->SetScalars(
+        toColors(colors.size(), [&](std::size_t i) { return colors[i].bytes(); }));
+  }
+  auto actor = makeActor(data, color);
+  actor->GetProperty()->SetPointSize(static_cast<float>(size_px));
+  actor->GetProperty()->RenderPointsAsSpheresOn();
+  actor->GetProperty()->SetAmbient(0.35);
+  actor->GetProperty()->SetDiffuse(0.65);
+  return actor;
+}
+
+vtkSmartPointer<vtkActor> tubeActor(const std::vector<Eigen::Vector3d>& line, double radius_m, Rgb color) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  cells->InsertNextCell(static_cast<int>(line.size()));
+  for (const Eigen::Vector3d& p : line) cells->InsertCellPoint(points->InsertNextPoint(p.data()));
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetLines(cells);
+  vtkNew<vtkTubeFilter> tube;
+  tube->SetInputData(data);
+  tube->SetRadius(radius_m);
+  tube->SetNumberOfSides(16);
+  tube->CappingOn();
+  tube->Update();
+  return makeActor(tube->GetOutput(), color);
+}
+
+vtkSmartPointer<vtkActor> ballActor(const Eigen::Vector3d& center, double radius_m, Rgb color) {
+  vtkNew<vtkSphereSource> ball;
+  ball->SetCenter(center.x(), center.y(), center.z());
+  ball->SetRadius(radius_m);
+  ball->SetThetaResolution(24);
+  ball->SetPhiResolution(16);
+  ball->Update();
+  return makeActor(ball->GetOutput(), color);
+}
+
+vtkSmartPointer<vtkActor> faceActor(const FaceMesh& faces, Rgb color, double opacity) {
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(toPoints(faces.corners));
+  data->SetPolys(toCells(faces.quads));
+  auto actor = makeActor(data, color);
+  actor->GetProperty()->SetInterpolationToFlat();
+  actor->GetProperty()->SetOpacity(opacity);
+  actor->GetProperty()->SetAmbient(0.25);
+  actor->GetProperty()->SetDiffuse(0.80);
+  return actor;
+}
+
+vtkSmartPointer<vtkActor> triangleActor(const std::vector<Eigen::Vector3f>& points,
+                                        const std::vector<Eigen::Vector3f>& normals,
+                                        const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                                        const std::vector<std::array<std::uint8_t, 3>>& colors, Rgb color,
+                                        double opacity) {
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(toPoints(points));
+  data->SetPolys(toCells(triangles));
+  if (!normals.empty() && normals.size() == points.size()) {
+    vtkNew<vtkFloatArray> values;
+    values->SetNumberOfComponents(3);
+    values->SetNumberOfTuples(static_cast<vtkIdType>(normals.size()));
+    std::memcpy(values->GetPointer(0), normals.data(), normals.size() * sizeof(Eigen::Vector3f));
+    data->GetPointData()->SetNormals(values);
+  }
+  if (!colors.empty()) {
+    const auto scalars = toColors(colors.size(), [&](std::size_t i) { return colors[i]; });
+    if (colors.size() == points.size()) {
+      data->GetPointData()->SetScalars(scalars);
+    } else if (colors.size() == triangles.size()) {
+      data->GetCellData()->SetScalars(scalars);
+    }
+  }
+  auto actor = makeActor(data, color);
+  if (normals.empty()) actor->GetProperty()->SetInterpolationToFlat();
+  actor->GetProperty()->SetOpacity(opacity);
+  actor->GetProperty()->SetAmbient(0.22);
+  actor->GetProperty()->SetDiffuse(0.85);
+  return actor;
+}
+
+vtkSmartPointer<vtkProp> labelProp(const Eigen::Vector3d& at, const std::string& utf8, double size_px,
+                                   Rgb color, bool bold, bool plate) {
+  auto label = vtkSmartPointer<vtkBillboardTextActor3D>::New();
+  label->SetPosition(at.x(), at.y(), at.z());
+  label->SetInput(utf8.c_str());
+  vtkTextProperty* text = label->GetTextProperty();
+  text->SetFontFamilyToArial();
+  text->SetFontSize(static_cast<int>(std::lround(size_px)));
+  text->SetBold(bold);
+  text->SetColor(color.r, color.g, color.b);
+  text->SetJustificationToCentered();
+  text->SetVerticalJustificationToCentered();
+  if (plate) {
+    text->SetBackgroundColor(1.0, 1.0, 1.0);
+    text->SetBackgroundOpacity(0.85);
+  }
+  return label;
+}
+
+FrustumCorners frustumCorners(const PinholeCamera& camera, const Pose& T_world_camera, double depth_m) {
+  const double left = -0.5, top = -0.5, right = camera.width - 0.5, bottom = camera.height - 0.5;
+  FrustumCorners corners;
+  corners.apex = T_world_camera.translation();
+  corners.image = {T_world_camera * (depth_m * camera.ray(left, top)),
+                   T_world_camera * (depth_m * camera.ray(right, top)),
+                   T_world_camera * (depth_m * camera.ray(right, bottom)),
+                   T_world_camera * (depth_m * camera.ray(left, bottom))};
+  return corners;
+}
+
+void addFrustum(LineSet& lines, const PinholeCamera& camera, const Pose& T_world_camera, double depth_m) {
+  const FrustumCorners corners = frustumCorners(camera, T_world_camera, depth_m);
+  for (int i = 0; i < 4; ++i) {
+    lines.add(corners.apex, corners.image[i]);
+    lines.add(corners.image[i], corners.image[(i + 1) % 4]);
+  }
+}
+
+}  // namespace vantage

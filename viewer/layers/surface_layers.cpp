@@ -1,0 +1,111 @@
+// Surfaces: the true scene, the fused surface, its segments by saliency and the order in which they are
+// tried.
+#include <vtkProperty.h>
+
+#include <algorithm>
+
+#include "viewer/layers/layer.h"
+#include "viewer/layers/shapes.h"
+
+namespace vantage {
+namespace {
+
+constexpr double kTruthMargin_m =
+    0.10;  ///< around the mapped volume; what leaves it (walls of a room) would hide all
+constexpr int kRankLabels = 5;
+
+bool hasMesh(const StepRecord& record) {
+  return record.surface && !record.surface->triangles.empty();
+}
+
+/// Colour of each point by the saliency of its segment.
+std::vector<std::array<std::uint8_t, 3>> saliencyColors(const SurfaceCloud& surface, const Labels& labels,
+                                                        const Saliency& saliency, double top) {
+  std::vector<std::array<std::uint8_t, 3>> of_label(saliency.segments.size() + 1,
+                                                    palette::kNoSegment.bytes());
+  for (const Segment& segment : saliency.segments) {
+    if (segment.label < of_label.size()) {
+      of_label[segment.label] = colorAt(ColorMap::Viridis, segment.saliency / top).bytes();
+    }
+  }
+  std::vector<std::array<std::uint8_t, 3>> colors(surface.points.size(), palette::kNoSegment.bytes());
+  for (std::size_t i = 0; i < std::min(colors.size(), labels.of_point.size()); ++i) {
+    if (labels.of_point[i] < of_label.size()) colors[i] = of_label[labels.of_point[i]];
+  }
+  return colors;
+}
+
+}  // namespace
+
+LayerContent truthLayer(const SceneFrame& frame, const LayerStyle& style) {
+  LayerContent content;
+  if (!frame.truth || frame.truth->empty()) return content;
+  const TriangleMesh& mesh = *frame.truth;
+  Box keep = frame.header.volume.bounds();
+  keep.min().array() -= kTruthMargin_m;
+  keep.max().array() += kTruthMargin_m;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<std::uint8_t, 3>> colors;
+  const bool colored = mesh.colors.size() == mesh.triangles.size();
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto inside = [&](std::uint32_t vertex) {
+      return keep.contains(mesh.vertices[vertex].cast<double>());
+    };
+    if (!std::all_of(mesh.triangles[i].begin(), mesh.triangles[i].end(), inside)) continue;
+    triangles.push_back(mesh.triangles[i]);
+    if (colored) colors.push_back(mesh.colors[i]);
+  }
+  if (triangles.empty()) return content;
+  const bool ghost = style.truth_opacity < 1.0;
+  if (ghost) colors.clear();
+  content.props.push_back(
+      triangleActor(mesh.vertices, {}, triangles, colors, palette::kSurface, style.truth_opacity));
+  content.legend.push_back({LegendEntry::Mark::Fill, palette::kSurface, ghost ? 0.4 : 1.0,
+                            colored && !ghost ? "true scene, in its own colours" : "true scene"});
+  return content;
+}
+
+LayerContent surfaceLayer(const SceneFrame& frame, const LayerStyle& style) {
+  LayerContent content;
+  if (!hasMesh(frame.record)) return content;
+  const SurfaceCloud& surface = *frame.record.surface;
+  content.props.push_back(triangleActor(surface.points, surface.normals, surface.triangles, {},
+                                        palette::kSurface, style.surface_opacity));
+  content.legend.push_back({LegendEntry::Mark::Fill, palette::kSurface, 1.0, "fused surface"});
+  return content;
+}
+
+LayerContent segmentsLayer(const SceneFrame& frame, const LayerStyle& style) {
+  LayerContent content;
+  const StepRecord& record = frame.record;
+  if (!hasMesh(record) || !record.labels || !record.saliency) return content;
+  const SurfaceCloud& surface = *record.surface;
+  const auto colors = saliencyColors(surface, *record.labels, *record.saliency, style.saliency_max);
+  content.props.push_back(triangleActor(surface.points, surface.normals, surface.triangles, colors,
+                                        palette::kSurface, style.surface_opacity));
+  content.scale = ColorScale{ColorMap::Viridis, "saliency of the segment", 0.0, style.saliency_max, true};
+  content.legend.push_back({LegendEntry::Mark::Fill, palette::kNoSegment, 1.0, "surface without a segment"});
+  return content;
+}
+
+LayerContent segmentRanksLayer(const SceneFrame& frame, const LayerStyle& style) {
+  LayerContent content;
+  const StepRecord& record = frame.record;
+  if (!record.search || !record.saliency) return content;
+  int rank = 0;
+  for (const SegmentSearch& search : record.search->segments) {
+    if (++rank > kRankLabels) break;
+    if (search.segment < 0 || search.segment >= static_cast<int>(record.saliency->segments.size())) continue;
+    const Segment& segment = record.saliency->segments[search.segment];
+    const Eigen::Vector3d at = segment.center_m + Eigen::Vector3d(0.0, 0.0, segment.radius_m + 0.03);
+    content.props.push_back(
+        labelProp(at, std::to_string(rank), style.label_px * 1.15, palette::kInk, true, true));
+  }
+  if (!content.props.empty()) {
+    content.legend.push_back(
+        {LegendEntry::Mark::Fill, rgb(255, 255, 255), 1.0, "1 2 3: order in which segments are tried"});
+  }
+  return content;
+}
+
+}  // namespace vantage

@@ -1,0 +1,149 @@
+// Views: all candidate positions, the ranked frusta of the searched segment, the chosen view and the way
+// there.
+#include <vtkActor.h>
+#include <vtkProperty.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "viewer/layers/layer.h"
+#include "viewer/layers/shapes.h"
+
+namespace vantage {
+namespace {
+
+using Mark = LegendEntry::Mark;
+
+struct GainRange {
+  double low = 0.0, high = 1.0;
+  double at(double gain) const { return (gain - low) / std::max(1e-9, high - low); }
+};
+
+/// From the threshold to a round number above the best gain.
+GainRange gainRange(const SceneFrame& frame, const std::vector<RankedPosition>& ranked) {
+  GainRange range{frame.header.planner_config.gain.gain_threshold, 0.0};
+  double best = range.low;
+  for (const RankedPosition& view : ranked) best = std::max(best, view.gain);
+  const double unit = std::pow(10.0, std::floor(std::log10(std::max(1.0, best))) - 1.0) * 5.0;
+  range.high = std::max(range.low + 1.0, std::ceil(best / unit) * unit);
+  return range;
+}
+
+void addCross(LineSet& lines, const Pose& pose, double half_m) {
+  const Eigen::Vector3d c = pose.translation(), x = pose.linear().col(0) * half_m,
+                        y = pose.linear().col(1) * half_m;
+  lines.add(c - x - y, c + x + y);
+  lines.add(c - x + y, c + x - y);
+}
+
+void addDashedFrustum(LineSet& lines, const PinholeCamera& camera, const Pose& pose, double depth_m) {
+  const FrustumCorners corners = frustumCorners(camera, pose, depth_m);
+  for (int i = 0; i < 4; ++i) {
+    lines.addDashed(corners.apex, corners.image[i], 0.012);
+    lines.addDashed(corners.image[i], corners.image[(i + 1) % 4], 0.012);
+  }
+}
+
+/// Distance from the eye to the contour point that the view looks at.
+double lookDistance(const SceneFrame& frame, const ChosenView& chosen) {
+  const auto& contours = frame.record.contours;
+  if (!contours || chosen.contour_point >= contours->points.size()) return 0.8;
+  return std::max(
+      0.05, (contours->points[chosen.contour_point].position_m - chosen.T_world_camera.translation()).norm());
+}
+
+}  // namespace
+
+LayerContent candidatesLayer(const SceneFrame& frame, const LayerStyle& style) {
+  LayerContent content;
+  if (!frame.record.positions || frame.record.positions->empty()) return content;
+  std::vector<Eigen::Vector3d> eyes;
+  for (const ViewPosition& position : *frame.record.positions)
+    eyes.push_back(position.T_world_camera.translation());
+  content.props.push_back(dotActor(eyes, {}, palette::kCandidate, 2.0 * style.line_scale));
+  content.legend.push_back({Mark::Dot, palette::kCandidate, 1.0, "positions of all candidate views"});
+  return content;
+}
+
+LayerContent rankedViewsLayer(const SceneFrame& frame, const LayerStyle& style) {
+  LayerContent content;
+  const SegmentSearch* search = shownSearch(frame.record);
+  if (!search) return content;
+  const std::vector<RankedPosition> ranked = rankedPositions(frame, *search);
+  const GainRange range = gainRange(frame, ranked);
+  LineSet colored, barred;
+  int shown = 0, unreachable = 0;
+  for (const RankedPosition& view : ranked) {
+    if (view.unreachable()) {
+      if (unreachable++ >= style.unreachable_views) continue;
+      addDashedFrustum(barred, frame.header.camera, view.T_world_camera, style.frustum_length_m);
+      addCross(barred, view.T_world_camera, 0.014);
+    } else if (shown++ < style.ranked_views) {
+      const std::size_t before = colored.pieces.size();
+      addFrustum(colored, frame.header.camera, view.T_world_camera, style.frustum_length_m);
+      colored.colors.insert(colored.colors.end(), colored.pieces.size() - before,
+                            colorAt(ColorMap::Viridis, range.at(view.gain)));
+    }
+  }
+  if (!colored.pieces.empty()) {
+    content.props.push_back(lineActor(colored, palette::kInk, 2.0 * style.line_scale));
+    content.scale = ColorScale{ColorMap::Viridis, "gain of the view, rays", range.low, range.high, false};
+    content.legend.push_back({Mark::Line, colorAt(ColorMap::Viridis, 0.5), 1.0,
+                              "best " + std::to_string(std::min(shown, style.ranked_views)) + " of " +
+                                  std::to_string(shown) + " positions above the threshold"});
+  }
+  if (!barred.pieces.empty()) {
+    content.props.push_back(lineActor(barred, palette::kUnreachable, 1.2 * style.line_scale));
+    content.legend.push_back({Mark::Cross, palette::kUnreachable, 1.0, "better, but cannot be reached"});
+  }
+  return content;
+}
+
+LayerContent chosenViewLayer(const SceneFrame& frame, const LayerStyle& style) {
+  LayerContent content;
+  if (!frame.record.hasView()) return content;
+  const ChosenView& chosen = *frame.record.search->chosen;
+  const double distance = lookDistance(frame, chosen);
+  LineSet frustum;
+  addFrustum(frustum, frame.header.camera, chosen.T_world_camera, std::min(distance, 0.30));
+  content.props.push_back(lineActor(frustum, palette::kChosen, 3.5 * style.line_scale));
+  LineSet axis;
+  axis.addDashed(chosen.T_world_camera.translation(),
+                 chosen.T_world_camera * Eigen::Vector3d(0.0, 0.0, distance), 0.012);
+  content.props.push_back(lineActor(axis, palette::kChosen, 2.0 * style.line_scale));
+  content.props.push_back(dotActor({chosen.T_world_camera * Eigen::Vector3d(0.0, 0.0, distance)}, {},
+                                   palette::kChosen, 11.0 * style.line_scale));
+  content.legend.push_back({Mark::Line, palette::kChosen, 1.0, "chosen view"});
+  content.legend.push_back({Mark::Dashed, palette::kChosen, 1.0, "its optical axis to the contour point"});
+
+  const SegmentSearch* search = shownSearch(frame.record);
+  if (search && search->sphere.radius > 0.0) {
+    LineSet sphere;
+    const double radius = search->sphere.radius;
+    for (int axis_index = 0; axis_index < 3; ++axis_index) {
+      sphere.addCircle(search->sphere.center, radius, Eigen::Vector3d::Unit(axis_index));
+    }
+    content.props.push_back(lineActor(sphere, palette::kInk, 1.2 * style.line_scale));
+    content.legend.push_back({Mark::Line, palette::kInk, 1.0, "sphere in which unknown counts"});
+  }
+  return content;
+}
+
+LayerContent pathLayer(const SceneFrame& frame, const LayerStyle&) {
+  LayerContent content;
+  if (!frame.record.hasView()) return content;
+  const MotionPlan& plan = frame.record.search->chosen->path;
+  if (plan.waypoints.size() < 2) return content;
+  std::vector<Eigen::Vector3d> line;
+  for (const Pose& pose : plan.waypoints) {
+    if (line.empty() || (pose.translation() - line.back()).norm() > 1e-6) line.push_back(pose.translation());
+  }
+  if (line.size() < 2) return content;
+  content.props.push_back(tubeActor(line, 0.006, palette::kPath));
+  content.props.push_back(ballActor(line.front(), 0.014, palette::kPath));
+  content.props.push_back(ballActor(line.back(), 0.014, palette::kChosen));
+  content.legend.push_back({Mark::Line, palette::kPath, 1.0, "path of the sensor to it"});
+  return content;
+}
+
+}  // namespace vantage

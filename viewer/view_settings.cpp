@@ -1,0 +1,44 @@
+#include "viewer/view_settings.h"
+
+#include "core/geometry/check.h"
+
+namespace vantage {
+namespace {
+
+constexpr std::array<std::string_view, kLayerCount> kNames = {
+    "workspace",  "axes",         "truth",       "occupied",      "unknown",        "free",
+    "slices",     "surface",      "segments",    "segment-ranks", "contour-voxels", "contour-points",
+    "candidates", "ranked-views", "chosen-view", "path",          "sensor",         "depth-image"};
+
+}  // namespace
+
+std::string_view layerName(Layer layer) {
+  return kNames[static_cast<std::size_t>(layer)];
+}
+
+std::optional<Layer> layerNamed(std::string_view name) {
+  for (int i = 0; i < kLayerCount; ++i) {
+    if (kNames[i] == name) return static_cast<Layer>(i);
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string_view> layerNames() {
+  return {kNames.begin(), kNames.end()};
+}
+
+void LayerStyle::validate() const {
+  requireInRange("unknown_opacity", unknown_opacity, 0.001, 0.15);
+  requireInRange("free_opacity", free_opacity, 0.001, 0.15);
+  requireInRange("saliency_max", saliency_max, 1e-6, 1e6);
+  requireInRange("ranked_views", ranked_views, 0, 500);
+  requireInRange("unreachable_views", unreachable_views, 0, 500);
+  requireInRange("frustum_length_m", frustum_length_m, 1e-3, 10.0);
+  requireInRange("slice_axis", slice_axis, 0, 2);
+  requireInRange("truth_opacity", truth_opacity, 0.001, 1.0);
+  requireInRange("surface_opacity", surface_opacity, 0.001, 1.0);
+  requireInRange("label_px", label_px, 4.0, 200.0);
+  requireInRange("line_scale", line_scale, 0.01, 20.0);
+}
+
+}  // namespace vantage

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace vantage {
+
+/// Everything that can be switched on in a view, in drawing order.
+enum class Layer : std::uint8_t {
+  Workspace,     ///< box of the workspace
+  Axes,          ///< axes of the world at a lower corner of the workspace
+  Truth,         ///< true scene
+  Occupied,      ///< occupied voxels
+  Unknown,       ///< frontier of unknown space: its faces toward free voxels
+  Free,          ///< boundary of free space
+  Slices,        ///< voxel states on a plane
+  Surface,       ///< fused surface
+  Segments,      ///< the same, coloured by saliency of its segments
+  SegmentRanks,  ///< the order in which segments are tried, as numbers beside them
+  ContourVoxels,
+  ContourPoints,  ///< with their normals
+  Candidates,     ///< positions of all candidate views
+  RankedViews,    ///< frusta of the best views of the searched segment
+  ChosenView,
+  Path,        ///< motion to the chosen view
+  Sensor,      ///< the sensor where the last scan was taken
+  DepthImage,  ///< last depth image, beside the scene
+};
+inline constexpr int kLayerCount = 18;
+
+/// Name of a layer in files and on the command line, e.g. "contour-points".
+std::string_view layerName(Layer layer);
+std::optional<Layer> layerNamed(std::string_view name);
+std::vector<std::string_view> layerNames();
+
+/// Layers that are shown.
+class LayerSet {
+ public:
+  LayerSet() = default;
+  LayerSet(std::initializer_list<Layer> layers) {
+    for (const Layer layer : layers) set(layer, true);
+  }
+  bool has(Layer layer) const { return shown_[static_cast<std::size_t>(layer)]; }
+  void set(Layer layer, bool shown) { shown_[static_cast<std::size_t>(layer)] = shown; }
+  bool operator==(const LayerSet&) const = default;
+
+ private:
+  std::array<bool, kLayerCount> shown_{};
+};
+
+/// How layers are drawn.
+struct LayerStyle {
+  double unknown_opacity = 0.15;   ///< of the unknown frontier, (0, 0.15]: what is behind must stay visible
+  double free_opacity = 0.06;      ///< (0, 0.15]
+  double saliency_max = 0.8;       ///< upper end of the saliency scale, the same for all steps, > 0
+  int ranked_views = 24;           ///< best positions that are drawn, 0..500
+  int unreachable_views = 12;      ///< better ones that could not be reached, 0..500
+  double frustum_length_m = 0.10;  ///< of ranked views, metres
+  int slice_axis = 1;              ///< normal of the slice: 0 x, 1 y, 2 z
+  double slice_at_m = 0.0;         ///< its position along that axis, world, metres
+  double truth_opacity = 1.0;      ///< (0, 1]; below 1 the true scene is a ghost
+  double surface_opacity = 1.0;    ///< (0, 1]
+  double label_px = 15.0;          ///< text in the scene, pixels
+  double line_scale = 1.0;         ///< widths of lines and points are multiplied by it, > 0
+  bool operator==(const LayerStyle&) const = default;
+  /// \throws std::invalid_argument naming field, value and range.
+  void validate() const;
+};
+
+/// Where the scene is looked at from; the same for every step, so that pictures can be compared.
+struct CameraView {
+  double azimuth_rad = -1.0297442586766543;   ///< of the eye from +x about z; -59 deg, the robot is at -y
+  double elevation_rad = 0.6806784082777885;  ///< above the horizon; 39 deg
+  double fov_rad = 0.4363323129985824;        ///< vertical aperture; 25 deg
+  double zoom = 1.0;                          ///< 1: the workspace fills the picture
+  bool operator==(const CameraView&) const = default;
+};
+
+/// A view of a step: layers, style, eye. Scene::show() draws it.
+struct ViewSettings {
+  LayerSet layers;
+  LayerStyle style;
+  CameraView camera;
+  bool operator==(const ViewSettings&) const = default;
+};
+
+}  // namespace vantage
