@@ -1,2 +1,26 @@
-# vantage_io_scene: scene files, solids, meshes, ground truth, embedded assets.
-add_library(vantage_io_scene INTERFACE)
+# vantage_io_scene: scene files, solids, meshes, rays through them, ground truth, embedded assets.
+include(embed)
+find_package(embree 3 REQUIRED)
+pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
+
+vantage_library(vantage_io_scene
+  SOURCES
+    embedded_assets.cpp
+    mesh_file.cpp
+    mesh_ply.cpp
+    scene_file.cpp
+    scene_rays.cpp
+    scene_solids.cpp
+    scene_table.cpp
+    solid.cpp
+    solid_lathe.cpp
+    solid_mesh.cpp
+    solid_tube.cpp
+  PUBLIC vantage_core
+  PRIVATE vantage_io_data embree TBB::tbb PkgConfig::tomlplusplus)
+
+# Files below assets/ that the program carries with it.
+vantage_embed_assets(vantage_io_scene
+  scenes/box.toml
+  scenes/room.toml
+  scenes/tabletop.toml)
