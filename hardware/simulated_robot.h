@@ -1,0 +1,30 @@
+#pragma once
+
+#include "core/exploration/ports.h"
+#include "core/motion/path_planner.h"
+
+namespace vantage {
+
+/// Free-flying sensor: goes where its body fits and its reach allows (D-B26). Moves are modelled, not waited
+/// for.
+class FreeFlyer : public Robot {
+ public:
+  /// \throws std::invalid_argument as FreeFlyerConfig::validate().
+  FreeFlyer(const FreeFlyerConfig& config, const Pose& T_world_camera);
+
+  std::string name() const override { return "free"; }
+  Pose cameraPose() const override { return T_world_camera_; }
+  void observe(const StateGrid& states) override;
+  /// Before the first observe() nothing is known to be free: the verdict is OutOfReach.
+  MotionPlan plan(const Pose& T_world_camera, std::uint64_t seed) override;
+  /// Goes to the last waypoint; the duration is length / speed. A plan without waypoints moves nothing and
+  /// takes 0 s.
+  double execute(const MotionPlan& plan) override;
+
+ private:
+  FreeFlyerConfig config_;
+  Pose T_world_camera_;
+  CollisionGrid grid_;
+};
+
+}  // namespace vantage
