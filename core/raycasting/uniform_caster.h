@@ -34,8 +34,8 @@ struct VisibilityQuery {
 };
 
 /// First-hit counts of one ray bundle. Each pixel's ray stops at the first voxel that is occupied or unknown
-/// (D-B7); a hit nearer than the minimum range counts nothing but still ends the ray; rays end at the maximum range
-/// (ray length) and where they leave the grid, which is empty outside.
+/// (D-B7); a hit nearer than the minimum range counts nothing but still ends the ray; rays end at the maximum
+/// range (ray length) and where they leave the grid, which is empty outside.
 struct VisibilityCounts {
   std::uint64_t unknown = 0;          ///< rays that end on unknown inside the region
   std::uint64_t occupied = 0;         ///< rays that end on occupied inside the region
@@ -57,8 +57,8 @@ VisibilityCounts castUniformReference(const StateGrid& grid, const PinholeCamera
 
 /// Counts of the poses that share one position and axis and differ by rolls of 90 degrees.
 struct QuarterTurnCounts {
-  VisibilityCounts upright;   ///< rolls 0 and 180 deg relative to `T_world_camera`
-  VisibilityCounts sideways;  ///< rolls 90 and 270 deg
+  VisibilityCounts upright;     ///< rolls 0 and 180 deg relative to `T_world_camera`
+  VisibilityCounts sideways;    ///< rolls 90 and 270 deg
   std::uint64_t rays_cast = 0;  ///< rays of the shared grid, less than the sum of both bundles
 };
 
