@@ -34,6 +34,20 @@ struct RunHeader {
   TriangleMesh truth;   ///< the true scene, empty if not known
 };
 
+/// How much of a record is read.
+enum class RunDetail {
+  All,
+  NoVolume
+};  ///< NoVolume leaves changed_bricks empty; advanceVolume() gives the map
+
+/// One stored product, for listings.
+struct ProductInfo {
+  int step = 0;
+  std::string stage, name;
+  std::uint64_t raw_bytes = 0;     ///< before compression
+  std::uint64_t stored_bytes = 0;  ///< in the file
+};
+
 /// Writes a run file (SQLite, one transaction per step): a crash at any instant loses at most the step in
 /// progress, and readers may follow. While it is open, `PATH-wal` and `PATH-shm` lie beside it; they go when
 /// it is closed.
@@ -44,8 +58,9 @@ class RunWriter {
   ~RunWriter();
   RunWriter(const RunWriter&) = delete;
 
-  /// Adds a finished step, or the closing record (record.closing). \throws std::runtime_error naming the
-  /// file, e.g. when the disk is full; steps written before stay readable.
+  /// Adds a finished step, or the closing record (record.closing), which goes under the number after the last
+  /// step. \throws std::runtime_error naming the file, e.g. when the disk is full; steps written before stay
+  /// readable. \throws std::invalid_argument if the step is not above the last one written.
   void write(const StepRecord& record);
   /// Adds what is known of a stored step once its view's scan is fused: realised_voxels and served.
   void setRealised(const StepRecord& record);
@@ -71,8 +86,11 @@ class RunReader {
   std::optional<std::string> stopReason() const;  ///< empty while the run goes on or was cut off
 
   /// The record of a step with all its products. \throws InputError if there is no such step.
-  StepRecord step(int step) const;
-  StepRecord closing() const;
+  StepRecord step(int step, RunDetail detail = RunDetail::All) const;
+  StepRecord closing(RunDetail detail = RunDetail::All) const;
+
+  /// What is stored, by step, stage and name.
+  std::vector<ProductInfo> products() const;
 
   /// The volume as it was when `step` was planned: applies the bricks of the steps after `from_step` up to
   /// `step` to `volume`, which holds the state of `from_step` (0 = empty volume). closingStep() names the map

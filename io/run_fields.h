@@ -1,0 +1,184 @@
+#pragma once
+
+#include "core/exploration/step_record.h"
+#include "io/run_bytes.h"
+#include "io/run_codec.h"
+#include "io/run_file.h"
+
+namespace vantage {
+
+// Every field of every type that a run file holds, once, in the order in which it is stored. A change here is
+// a new version of the file (kRunVersion).
+
+template <>
+inline constexpr std::int64_t kEnumCount<Stage> = static_cast<std::int64_t>(Stage::Realised) + 1;
+template <>
+inline constexpr std::int64_t kEnumCount<Reachability> = kReachabilityCount;
+template <>
+inline constexpr std::int64_t kEnumCount<OutsideUnknown> = 2;
+template <>
+inline constexpr bool kFlat<ScanPose> = true;
+template <>
+inline constexpr bool kFlat<ContourVoxel> = true;
+template <>
+inline constexpr bool kFlat<ContourPoint> = true;
+template <>
+inline constexpr bool kFlat<Segment> = true;
+template <>
+inline constexpr bool kFlat<ViewPosition> = true;
+template <>
+inline constexpr bool kFlat<PoseScore> = true;
+
+// Geometry
+void fields(auto& a, Like<PinholeCamera> auto& v) {
+  a(v.width, v.height, v.fx, v.fy, v.cx, v.cy, v.min_range_m, v.max_range_m);
+}
+void fields(auto& a, Like<GridGeometry> auto& v) {
+  a(v.origin_m, v.voxel_size_m, v.size);
+}
+void fields(auto& a, Like<Sphere> auto& v) {
+  a(v.center, v.radius);
+}
+void fields(auto& a, Like<TriangleMesh> auto& v) {
+  a(v.vertices, v.triangles, v.colors);
+}
+void fields(auto& a, Like<DepthImage> auto& v) {
+  a(v.width, v.height, v.depth_m);
+}
+
+// Configuration
+void fields(auto& a, Like<ContourConfig> auto& v) {
+  a(v.weight_threshold, v.group_distance_m, v.group_angle_rad, v.occupied_six_neighbours,
+    v.unknown_eighteen_neighbours);
+}
+void fields(auto& a, Like<ContourViewConfig> auto& v) {
+  a(v.distances_m, v.tilt_rad, v.rolls);
+}
+void fields(auto& a, Like<SegmentationConfig> auto& v) {
+  a(v.voxel_m, v.seed_m, v.spatial_weight, v.normal_weight, v.concavity_tolerance_rad, v.smoothness_check,
+    v.smoothness, v.k_convexity, v.sanity_check, v.min_segment_supervoxels);
+}
+void fields(auto& a, Like<SaliencyConfig> auto& v) {
+  a(v.isolation_distance_m, v.max_distance_m, v.min_points, v.use_isolation, v.use_roundness);
+}
+void fields(auto& a, Like<GainConfig> auto& v) {
+  a(v.sphere_margin_m, v.gain_threshold, v.reduction, v.outside, v.exclude_executed, v.executed_distance_m,
+    v.executed_angle_rad, v.exclude_disappointing, v.disappointing_share, v.disappointing_distance_m);
+}
+void fields(auto& a, Like<ContourPlannerConfig> auto& v) {
+  a(v.contours, v.views, v.segmentation, v.saliency, v.gain, v.segment_by_segment);
+}
+void fields(auto& a, Like<FreeFlyerConfig> auto& v) {
+  a(v.body_radius_m, v.cell_m, v.reach_m, v.reach_center_m, v.min_height_m, v.check_step_m, v.rrt_iterations,
+    v.rrt_range_m, v.safety_time_s, v.speed_m_per_s);
+}
+
+/// How a run ended, and what it must hold then.
+struct RunEnd {
+  std::string stop_reason;
+  std::vector<int> steps;
+  bool closing = false;
+};
+void fields(auto& a, Like<RunEnd> auto& v) {
+  a(v.stop_reason, v.steps, v.closing);
+}
+
+// The run; its true scene is a product of its own.
+void fields(auto& a, Like<RunHeader> auto& v) {
+  a(v.input, v.planner, v.robot, v.command_line, v.version, v.scene_toml, v.config_toml, v.seed, v.threads,
+    v.compute, v.camera, v.volume, v.workspace, v.planner_config, v.free_flyer, v.replay);
+}
+
+// One step
+void fields(auto& a, Like<ScanPose> auto& v) {
+  a(v.T_world_camera, v.frame);
+}
+void fields(auto& a, Like<DepthFrame> auto& v) {
+  a(v.depth, v.T_world_camera, v.frame);
+}
+void fields(auto& a, Like<MapMetrics> auto& v) {
+  a(v.unknown_voxels, v.unknown_near_objects, v.unknown_in_boxes, v.coverage);
+}
+void fields(auto& a, Like<Timings> auto& v) {
+  a(v.sense, v.filter, v.fuse, v.contours, v.surface, v.segmentation, v.saliency, v.generation, v.evaluation,
+    v.collision_map, v.motion_planning, v.motion);
+}
+/// What a record holds beside its products; Realised comes later and is stored apart.
+void fields(auto& a, Like<StepRecord> auto& v) {
+  a(v.step, v.closing, v.stage, v.planner, v.scan, v.metrics, v.toward_object, v.served, v.timings);
+}
+void fields(auto& a, Like<Realised> auto& v) {
+  a(v.stage, v.voxels, v.served);
+}
+void fields(auto& a, Like<ContourVoxel> auto& v) {
+  a(v.voxel, v.raw_normal, v.normal, v.group);
+}
+void fields(auto& a, Like<ContourPoint> auto& v) {
+  a(v.position_m, v.normal, v.voxels);
+}
+void fields(auto& a, Like<Contours> auto& v) {
+  a(v.voxels, v.points);
+}
+void fields(auto& a, Like<SurfaceCloud> auto& v) {
+  a(v.points, v.normals, v.triangles);
+}
+void fields(auto& a, Like<Labels> auto& v) {
+  a(v.of_point, v.count, v.supervoxels);
+}
+void fields(auto& a, Like<Segment> auto& v) {
+  a(v.label, v.points, v.saliency, v.isolation, v.roundness, v.extent_m, v.axes, v.mean_m, v.center_m,
+    v.radius_m);
+}
+void fields(auto& a, Like<Saliency> auto& v) {
+  a(v.segments, v.distance_to_other_m);
+}
+void fields(auto& a, Like<ViewPosition> auto& v) {
+  a(v.first_id, v.group, v.T_world_camera);
+}
+
+// The search
+void fields(auto& a, Like<PoseScore> auto& v) {
+  a(v.id, v.gain, v.unknown, v.occupied, v.reachability, v.executed_before, v.histogram);
+}
+
+/// Histograms one after the other: tens of thousands of short ones compress as one sequence.
+template <class Archive>
+void histograms(Archive& a, const std::vector<std::vector<std::uint32_t>>& all) {
+  std::vector<std::uint32_t> bins, counts;
+  for (const auto& histogram : all) {
+    bins.push_back(static_cast<std::uint32_t>(histogram.size()));
+    counts.insert(counts.end(), histogram.begin(), histogram.end());
+  }
+  a(bins, counts);
+}
+inline void histograms(ByteReader& a, std::vector<std::vector<std::uint32_t>>& all) {
+  std::vector<std::uint32_t> bins, counts;
+  a(bins, counts);
+  all.clear();
+  std::size_t at = 0;
+  for (const std::uint32_t size : bins) {
+    if (size > counts.size() - at) throw DamagedBytes("histograms shorter than they say");
+    all.emplace_back(counts.begin() + at, counts.begin() + at + size);
+    at += size;
+  }
+  if (at != counts.size()) throw DamagedBytes("histograms longer than they say");
+}
+void fields(auto& a, Like<SegmentSearch> auto& v) {
+  a(v.segment, v.saliency, v.sphere, v.contour_points, v.poses_generated, v.scored, v.scores);
+  histograms(a, v.histograms);
+}
+void fields(auto& a, Like<SearchCounts> auto& v) {
+  a(v.poses_generated, v.poses_scored, v.poses_above_threshold, v.poses_unreachable, v.poses_executed_before,
+    v.rays, v.voxels_visited, v.paths_planned);
+}
+void fields(auto& a, Like<MotionPlan> auto& v) {
+  a(v.verdict, v.straight, v.waypoints, v.length_m, v.iterations);
+}
+void fields(auto& a, Like<ChosenView> auto& v) {
+  a(v.id, v.contour_point, v.search, v.rank, v.T_world_camera, v.gain, v.gain_voxels, v.path);
+}
+void fields(auto& a, Like<ViewSearch> auto& v) {
+  a(v.segments, v.chosen, v.counts, v.evaluation_s, v.motion_planning_s);
+}
+
+}  // namespace vantage

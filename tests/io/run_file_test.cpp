@@ -1,0 +1,248 @@
+#include "io/run_file.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "io/error.h"
+#include "tests/io/run_support.h"
+
+namespace vantage::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+/// The message with which opening or reading fails.
+template <class Action>
+std::string inputError(const Action& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no InputError";
+}
+
+std::vector<std::string> namesIn(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+TEST(RunFile, GivesBackEveryFieldOfEveryRecord) {
+  const TestFolder folder;
+  writeRun(folder / "a.vantage", 100, 3);
+  const RunReader reader(folder / "a.vantage");
+  EXPECT_TRUE(equal(reader.header(), randomHeader(100)));
+  EXPECT_EQ(reader.steps(), (std::vector{1, 2, 3}));
+  for (const int step : reader.steps()) expectEqual(reader.step(step), randomRecord(100 + step, step));
+  ASSERT_TRUE(reader.hasClosing());
+  EXPECT_EQ(reader.closingStep(), 4);
+  expectEqual(reader.closing(), randomRecord(104, 4, true));
+  EXPECT_EQ(reader.stopReason(), "steps done");
+}
+
+TEST(RunFile, KeepsAbsentAndEmptyProductsApart) {
+  const TestFolder folder;
+  StepRecord absent, empty;
+  absent.step = 1;
+  empty.step = 2;
+  empty.depth = std::make_shared<DepthFrame>();
+  empty.changed_bricks = std::make_shared<std::vector<TsdfBrick>>();
+  empty.contours = std::make_shared<Contours>();
+  empty.surface = std::make_shared<SurfaceCloud>();
+  empty.labels = std::make_shared<Labels>();
+  empty.saliency = std::make_shared<Saliency>();
+  empty.point_labels = std::make_shared<std::vector<std::uint32_t>>();
+  empty.positions = std::make_shared<std::vector<ViewPosition>>();
+  empty.search = std::make_shared<ViewSearch>();
+  {
+    RunWriter writer(folder / "a.vantage", {});
+    writer.write(absent);
+    writer.write(empty);
+  }
+  const RunReader reader(folder / "a.vantage");
+  expectEqual(reader.step(1), absent);
+  expectEqual(reader.step(2), empty);
+  EXPECT_FALSE(reader.stopReason().has_value());
+  EXPECT_FALSE(reader.hasClosing());
+}
+
+TEST(RunFile, FillsInWhatIsKnownLater) {
+  const TestFolder folder;
+  StepRecord record = randomRecord(7, 1);
+  record.realised_voxels.reset();
+  record.served.reset();
+  RunWriter writer(folder / "a.vantage", randomHeader(1));
+  writer.write(record);
+  expectEqual(RunReader(folder / "a.vantage").step(1), record);
+  record.stage = Stage::Realised;
+  record.realised_voxels = 0;
+  record.served = ScanPose{lookAt({1, 2, 3}, {0, 0, 0}), 17};
+  writer.setRealised(record);
+  expectEqual(RunReader(folder / "a.vantage").step(1), record);
+  record.step = 2;
+  EXPECT_THROW(writer.setRealised(record), std::invalid_argument);
+}
+
+TEST(RunFile, TakesStepsInAscendingOrderOnly) {
+  const TestFolder folder;
+  RunWriter writer(folder / "a.vantage", {});
+  writer.write(randomRecord(1, 2));
+  EXPECT_THROW(writer.write(randomRecord(1, 2)), std::invalid_argument);
+  EXPECT_THROW(writer.write(randomRecord(1, 1)), std::invalid_argument);
+  writer.write(randomRecord(1, 3));
+  EXPECT_EQ(RunReader(folder / "a.vantage").steps(), (std::vector{2, 3}));
+}
+
+TEST(RunFile, IsOneFileOnceFinishedAndReadingMakesNoOther) {
+  const TestFolder folder;
+  writeRun(folder / "a.vantage", 5, 2);
+  EXPECT_EQ(namesIn(folder.path()), std::vector<std::string>{"a.vantage"});
+  const RunReader reader(folder / "a.vantage");
+  reader.step(1);
+  EXPECT_EQ(namesIn(folder.path()), std::vector<std::string>{"a.vantage"});
+}
+
+TEST(RunFile, ReplacesAnEarlierRunButNothingElse) {
+  const TestFolder folder;
+  writeRun(folder / "a.run", 5, 2);
+  writeRun(folder / "a.run", 6, 1);
+  EXPECT_EQ(RunReader(folder / "a.run").steps(), std::vector{1});
+  std::ofstream(folder / "notes.txt") << "mine\n";
+  EXPECT_THAT(inputError([&] { RunWriter(folder / "notes.txt", {}); }), HasSubstr("is not a run file"));
+  EXPECT_EQ(fs::file_size(folder / "notes.txt"), 5u);
+  EXPECT_THAT(inputError([&] { RunWriter(folder / "none/a.vantage", {}); }),
+              HasSubstr("folder does not exist"));
+  EXPECT_THAT(inputError([&] { RunWriter(folder.path(), {}); }), HasSubstr("not a regular file"));
+}
+
+TEST(RunFile, TwoFilesOfTheSameRecordsHoldTheSameBytes) {
+  const TestFolder folder;
+  writeRun(folder / "a.vantage", 9, 2);
+  writeRun(folder / "b.vantage", 9, 2);
+  const auto bytes = [&](const char* name) {
+    std::ifstream file(folder / name, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const RunReader a(folder / "a.vantage"), b(folder / "b.vantage");
+  ASSERT_EQ(a.products().size(), b.products().size());
+  EXPECT_GT(a.products().size(), 20u);
+  for (std::size_t i = 0; i < a.products().size(); ++i)
+    EXPECT_EQ(a.products()[i].stored_bytes, b.products()[i].stored_bytes);
+  EXPECT_EQ(bytes("a.vantage"), bytes("b.vantage"));
+}
+
+TEST(RunFile, RebuildsTheVolumeOfEveryStep) {
+  const TestFolder folder;
+  writeRun(folder / "a.vantage", 20, 3);
+  const RunReader reader(folder / "a.vantage");
+  TsdfVolume expected(testGrid()), forward(testGrid());
+  for (int step = 1; step <= 4; ++step) {
+    const StepRecord record = randomRecord(20 + step, step, step == 4);
+    for (const TsdfBrick& brick : *record.changed_bricks) expected.setBrick(brick.brick, brick.voxels);
+    const BrickSet changed = reader.advanceVolume(forward, step - 1, step);
+    EXPECT_EQ(changed.list().size(), record.changed_bricks->size());
+    TsdfVolume direct(testGrid());
+    reader.advanceVolume(direct, 0, step);
+    EXPECT_TRUE(std::ranges::equal(forward.voxels(), expected.voxels())) << step;
+    EXPECT_TRUE(std::ranges::equal(direct.voxels(), expected.voxels())) << step;
+  }
+  EXPECT_THROW(reader.advanceVolume(forward, 0, 5), std::invalid_argument);
+  EXPECT_THROW(reader.advanceVolume(forward, 2, 1), std::invalid_argument);
+  TsdfVolume other({{0, 0, 0}, 0.01, {4, 4, 4}});
+  EXPECT_THROW(reader.advanceVolume(other, 0, 1), std::invalid_argument);
+}
+
+TEST(RunFile, LeavesTheVolumeOutOnRequest) {
+  const TestFolder folder;
+  writeRun(folder / "a.vantage", 30, 1);
+  const RunReader reader(folder / "a.vantage");
+  StepRecord expected = randomRecord(31, 1);
+  expected.changed_bricks.reset();
+  expectEqual(reader.step(1, RunDetail::NoVolume), expected);
+}
+
+TEST(RunFile, NamesTheStepsThereAreWhenAskedForAnother) {
+  const TestFolder folder;
+  writeRun(folder / "a.vantage", 30, 2);
+  const RunReader reader(folder / "a.vantage");
+  EXPECT_THAT(inputError([&] { reader.step(9); }), HasSubstr("no step 9; its steps are 1 to 2"));
+}
+
+TEST(RunFile, RefusesWhatIsNoRun) {
+  const TestFolder folder;
+  const auto open = [&](const std::string& name) { return inputError([&] { RunReader r(folder / name); }); };
+  EXPECT_THAT(open("none.vantage"), HasSubstr("does not exist"));
+  EXPECT_THAT(open(""), HasSubstr("is not a file"));
+  std::ofstream(folder / "empty.vantage");
+  EXPECT_THAT(open("empty.vantage"), HasSubstr("is not a run file"));
+  std::ofstream(folder / "text.vantage") << std::string(5000, 'x');
+  EXPECT_THAT(open("text.vantage"), HasSubstr("is not a run file"));
+}
+
+/// Overwrites bytes of a finished run.
+void patch(const fs::path& path, std::streamoff at, const std::string& bytes) {
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(at);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+TEST(RunFile, SaysWhatToDoAboutANewerVersion) {
+  const TestFolder folder;
+  writeRun(folder / "a.vantage", 30, 1);
+  patch(folder / "a.vantage", 60, std::string("\0\0\0\x63", 4));  // SQLite's user version
+  EXPECT_THAT(inputError([&] { RunReader r(folder / "a.vantage"); }),
+              ::testing::AllOf(HasSubstr("a.vantage: has version 99"), HasSubstr("newer vantage")));
+  patch(folder / "a.vantage", 68, "none");  // SQLite's application id
+  EXPECT_THAT(inputError([&] { RunReader r(folder / "a.vantage"); }), HasSubstr("not a run file"));
+}
+
+/// Reads everything; true if it equals what writeRun(path, 40, 2) wrote.
+bool readsAsWritten(const fs::path& path) {
+  const RunReader reader(path);
+  bool same = equal(reader.header(), randomHeader(40)) && reader.steps() == std::vector{1, 2} &&
+              reader.stopReason() == "steps done" && reader.hasClosing();
+  for (const int step : reader.steps())
+    same = same && equal(reader.step(step), randomRecord(40 + step, step));
+  return same && equal(reader.closing(), randomRecord(43, 3, true));
+}
+
+TEST(RunFile, AFlippedBitIsNoticedOrHarmless) {
+  const TestFolder folder;
+  writeRun(folder / "good.vantage", 40, 2);
+  ASSERT_TRUE(readsAsWritten(folder / "good.vantage"));
+  std::ifstream file(folder / "good.vantage", std::ios::binary);
+  const std::string good(std::istreambuf_iterator<char>(file), {});
+  std::mt19937 random(1);
+  int noticed = 0;
+  for (int i = 0; i < 600; ++i) {
+    std::string bad = good;
+    // Every third in the first page, where SQLite keeps its own header and schema.
+    const std::size_t at = random() % (i % 3 == 0 ? 4096 : bad.size());
+    bad[at] = static_cast<char>(bad[at] ^ (1 << random() % 8));
+    std::ofstream(folder / "bad.vantage", std::ios::binary) << bad;
+    try {
+      EXPECT_TRUE(readsAsWritten(folder / "bad.vantage")) << "other data from a bit flipped in byte " << at;
+    } catch (const InputError&) {
+      ++noticed;
+    }
+  }
+  EXPECT_GT(noticed, 100);
+  EXPECT_LT(noticed, 600);
+}
+
+TEST(RunFile, ATruncatedFileIsRefused) {
+  const TestFolder folder;
+  writeRun(folder / "a.vantage", 40, 2);
+  const auto full = fs::file_size(folder / "a.vantage");
+  for (int part = 19; part >= 0; --part) {
+    fs::resize_file(folder / "a.vantage", full * part / 20);
+    EXPECT_THROW(readsAsWritten(folder / "a.vantage"), InputError) << part << "/20";
+  }
+}
+
+}  // namespace
+}  // namespace vantage::testing
