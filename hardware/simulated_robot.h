@@ -14,6 +14,7 @@ class FreeFlyer : public Robot {
 
   std::string name() const override { return "free"; }
   Pose cameraPose() const override { return T_world_camera_; }
+  void localise(const Pose& T_world_camera) override { T_world_camera_ = T_world_camera; }
   void observe(const StateGrid& states) override;
   /// Before the first observe() nothing is known to be free: the verdict is OutOfReach.
   MotionPlan plan(const Pose& T_world_camera, std::uint64_t seed) override;
