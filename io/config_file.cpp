@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include "io/config_fields.h"
 #include "io/suggest.h"
+#include "io/text_file.h"
 
 namespace vantage {
 namespace {
@@ -117,21 +116,6 @@ std::string oneLine(std::string text) {
   return text;
 }
 
-std::string readText(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    throw InputError(path.string(), "is a folder; a TOML file is wanted");
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (!error && size > kLargestFile)
-    throw InputError(path.string(), "is larger than 16 MiB; no configuration file is");
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  if (!file.is_open() || file.bad())
-    throw InputError(path.string(), "cannot be read; check that the file exists");
-  return text.str();
-}
-
 }  // namespace
 
 std::string Settings::planner() const {
@@ -161,7 +145,7 @@ void applyToml(Settings& settings, std::string_view text, const std::string& ori
 }
 
 void applyTomlFile(Settings& settings, const std::filesystem::path& path) {
-  applyToml(settings, readText(path), path.string());
+  applyToml(settings, readTextFile(path, kLargestFile), path.string());
 }
 
 void applyAssignment(Settings& settings, std::string_view key_value, const std::string& origin) {

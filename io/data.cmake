@@ -1,4 +1,5 @@
 # vantage_io_data: data sets, images, clouds, volumes, tables, configuration.
+find_package(PNG REQUIRED)
 pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
 
 vantage_library(vantage_io_data
@@ -7,6 +8,12 @@ vantage_library(vantage_io_data
     config_fields_table.cpp
     config_file.cpp
     config_validate.cpp
+    dataset.cpp
+    dataset_layouts.cpp
+    dataset_settings.cpp
+    dataset_toml.cpp
+    depth_png.cpp
     suggest.cpp
+    text_file.cpp
   PUBLIC vantage_core
-  PRIVATE PkgConfig::tomlplusplus)
+  PRIVATE PkgConfig::tomlplusplus PNG::PNG)

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/geometry/camera_model.h"
+#include "core/geometry/depth_image.h"
+#include "core/geometry/grid_geometry.h"
+#include "core/geometry/pose.h"
+#include "io/config_file.h"
+#include "io/depth_png.h"
+#include "io/error.h"
+
+namespace vantage {
+
+/// One recorded frame.
+struct DatasetFrame {
+  int number = 0;  ///< as in the file's name, or position in the list (TUM RGB-D)
+  std::filesystem::path depth_path;
+  std::filesystem::path color_path;  ///< empty if there is none
+  Pose T_world_camera = Pose::Identity();
+};
+
+/// A recorded RGB-D sequence with poses. Images are read when asked for.
+///
+/// Layouts that are recognised, where `dataset.toml` does not say otherwise:
+/// - 7-Scenes style: `frame-NUMBER.depth.png` and `frame-NUMBER.pose.txt` (4x4, camera to world) in the
+/// folder or in
+///   its `frames/`; `camera-intrinsics.txt` (3x3 matrix, or fx fy cx cy) beside them or above. Millimetres.
+/// - TUM RGB-D: `depth.txt`, `groundtruth.txt`, optionally `rgb.txt`; nearest time stamps within 0.02 s;
+/// counts of
+///   0.2 mm. Without `camera-intrinsics.txt`: 525, 525, 319.5, 239.5, with a warning.
+///
+/// Keys of `dataset.toml`, all optional; file names are relative to the data set:
+/// `layout` = "frames" | "tum"; `depth_pattern`, `color_pattern`, `pose_pattern` with `{number}` in the last
+/// part; `intrinsics` (file) or `[camera]` with `fx`, `fy`, `cx`, `cy`; `depth_unit_m`; `invalid_depth` (list
+/// of counts); `pose_convention` = "camera_to_world" | "world_to_camera"; `range_m` = [min, max];
+/// `observations_per_frame`; `[T_world_dataset]` with `position_m` and `quaternion_xyzw`, or `matrix` (4 rows
+/// of 4);
+/// `[bounds]` with `min_m`, `max_m` (world).
+struct Dataset {
+  std::filesystem::path path;
+  std::string layout;    ///< "frames" or "tum"
+  PinholeCamera camera;  ///< size of the depth images; range 0.1 .. 8 m unless stated
+  DepthPngFormat depth_format;
+  std::vector<DatasetFrame> frames;         ///< ascending numbers, never empty
+  Pose T_world_dataset = Pose::Identity();  ///< already applied to the poses
+  std::optional<Box> bounds;                ///< of interest, world; if stated
+  int observations_per_frame = 10;          ///< one stop gives one frame
+  std::vector<std::string> warnings;
+};
+
+/// True for a folder that openDataset() would recognise (or a folder with a `dataset.toml`).
+bool looksLikeDataset(const std::filesystem::path& path);
+
+/// Opens a data set: lists its frames, reads all poses and the size of every image.
+/// \param toml description to use instead of a `dataset.toml` in the folder.
+/// \throws InputError naming file (and line): no known layout, no frames, a missing or broken pose, a pose
+/// that is not
+///         rigid, an image of another size than the first or not 16-bit, broken intrinsics or description.
+Dataset openDataset(const std::filesystem::path& path,
+                    const std::optional<std::filesystem::path>& toml = std::nullopt);
+
+/// Depth of frame `index` (position in Dataset::frames), metres. \throws InputError if the image is damaged
+/// or was replaced by one of another size.
+DepthImage loadDepth(const Dataset& dataset, std::size_t index);
+
+/// Gives the data set another place in the world; stated bounds belonged to the old place and are dropped.
+void placeDataset(Dataset& dataset, const Pose& T_world_dataset);
+
+/// Defaults for a data set as input of an exploration: its camera; a workspace from the stated bounds, else
+/// from the measured points (2nd to 98th percentile of each axis, over the 5 cm cells that a quarter of up to
+/// 60 frames saw); a volume that covers it with a margin of 5 cm in at most 40 M voxels, the truncation, the
+/// grouping distance and the segmentation's voxels growing with the voxel size; 3 initial frames, one frame
+/// per view, no tilt; reachability only reported. Views are generated at the median measured depth. Values
+/// that differ from the program's defaults have the origin "data set". \throws InputError if no frame holds a
+/// valid pixel and no bounds are stated.
+Settings settingsForDataset(const Dataset& dataset);
+
+}  // namespace vantage
