@@ -1,1 +1,2 @@
-vantage_test(io_run_test run_file_test.cpp run_support.cpp LIBS vantage_io_run)
+vantage_test(io_run_test run_file_test.cpp run_crash_test.cpp json_summary_test.cpp run_support.cpp
+  LIBS vantage_io_run nlohmann_json::nlohmann_json)

@@ -80,6 +80,7 @@ StepRecord randomRecord(std::uint64_t seed, int step, bool closing) {
   record.step = step;
   record.closing = closing;
   record.stage = Stage::Done;
+  if (!closing) random.optional(record.realised_voxels);
   auto depth = randomValue<DepthFrame>(random);
   depth->depth = DepthImage(31, 17);
   for (std::size_t i = 0; i < depth->depth.depth_m.size(); i += 2) random(depth->depth.depth_m[i]);
