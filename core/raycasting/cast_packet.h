@@ -45,8 +45,8 @@ typename L::I corrected(const Bundle& b, const Packet<L>& p, int axis, typename 
   const auto low = crossed<L>(b, p, axis, guess, t, event_axis);
   const auto high = crossed<L>(b, p, axis, L::add(guess, one), t, event_axis);
   // Forward: plane i is crossed and i+1 is not. Backward: plane i+1 is crossed and i is not.
-  const auto down = L::select(p.forward[axis], L::inverse(low), low);
-  const auto up = L::select(p.forward[axis], high, L::inverse(high));
+  const auto down = L::differ(p.forward[axis], low);
+  const auto up = L::inverse(L::differ(p.forward[axis], high));
   guess = L::select(down, L::sub(guess, one), L::select(up, L::add(guess, one), guess));
   return L::select(p.forward[axis], L::max(guess, p.at[axis]), L::min(guess, p.at[axis]));
 }

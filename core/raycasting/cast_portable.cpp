@@ -22,6 +22,7 @@ struct Single {
   static bool any(M m) { return m; }
   static M both(M a, M b) { return a && b; }
   static M either(M a, M b) { return a || b; }
+  static M differ(M a, M b) { return a != b; }
   static M inverse(M a) { return !a; }
 
   static F load(const float* from) { return *from; }

@@ -81,7 +81,7 @@ TEST(UniformCaster, EveryPathAgreesWithThePlainWalkOnRandomGrids) {
     for (int m = 0; m < 4; ++m)
       hits += comparePaths(grid, smallCamera(), randomPose(random, grid.geometry().bounds()));
   }
-  EXPECT_GT(hits, 20000u);
+  EXPECT_GT(hits, 10000u);
 }
 
 TEST(UniformCaster, EveryPathAgreesWithThePlainWalkOnRaysThatStartOnPlanesAndRunAlongAxes) {
