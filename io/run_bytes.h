@@ -49,9 +49,11 @@ inline constexpr bool kFlat<Pose> = true;
 template <class T, std::size_t N>
 inline constexpr bool kFlat<std::array<T, N>> = kFlat<T>;
 
-/// Byte planes: `to` gets byte p of element i at p * count + i.
-void toPlanes(const std::uint8_t* from, std::uint8_t* to, std::size_t count, std::size_t stride);
-void fromPlanes(const std::uint8_t* from, std::uint8_t* to, std::size_t count, std::size_t stride);
+/// Byte planes: `to` gets byte p of element i at p * plane + i, for `count` elements; plane >= count.
+void toPlanes(const std::uint8_t* from, std::uint8_t* to, std::size_t count, std::size_t stride,
+              std::size_t plane);
+void fromPlanes(const std::uint8_t* from, std::uint8_t* to, std::size_t count, std::size_t stride,
+                std::size_t plane);
 
 namespace detail {
 template <class T>
@@ -176,7 +178,8 @@ class ByteWriter : public detail::Archive<ByteWriter> {
       ByteWriter packed;
       packed.reserve(values.size() * packedSize<T>());
       for (const T& value : values) packed(value);
-      toPlanes(packed.bytes_.data(), append(packed.bytes_.size()), values.size(), packedSize<T>());
+      toPlanes(packed.bytes_.data(), append(packed.bytes_.size()), values.size(), packedSize<T>(),
+               values.size());
     }
   }
 
@@ -238,7 +241,7 @@ class ByteReader : public detail::Archive<ByteReader> {
       const std::size_t count = size(stride);
       if (count == 0) return;
       Bytes packed(count * stride);
-      fromPlanes(raw(packed.size()).data(), packed.data(), count, stride);
+      fromPlanes(raw(packed.size()).data(), packed.data(), count, stride, count);
       ByteReader elements(packed);
       values.resize(count);
       for (T& value : values) elements(value);

@@ -23,70 +23,53 @@ Bytes compress(const Bytes& raw) {
   if (!context) throw std::bad_alloc();
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, kLevel);
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
-  Bytes data(ZSTD_compressBound(raw.size()));
-  const std::size_t size = ZSTD_compress2(context.get(), data.data(), data.size(), raw.data(), raw.size());
+  const std::size_t bound = ZSTD_compressBound(raw.size());
+  const auto data = std::make_unique_for_overwrite<std::uint8_t[]>(bound);
+  const std::size_t size = ZSTD_compress2(context.get(), data.get(), bound, raw.data(), raw.size());
   if (ZSTD_isError(size)) throw std::runtime_error(std::string("zstd: ") + ZSTD_getErrorName(size));
-  data.resize(size);
-  data.shrink_to_fit();
-  return data;
+  return Bytes(data.get(), data.get() + size);
 }
 
-/// A product that is one value.
-template <class T>
-StoredProduct storeValue(const std::string& stage, const std::string& name, int step, const T& value) {
-  ByteWriter content;
-  content(value);
-  return storeProduct(stage, name, step, content.bytes());
-}
-
-template <class T>
-T openValue(const StoredProduct& product, int step) {
-  const Bytes bytes = openProduct(product, step);
-  ByteReader reader(bytes);
-  T value;
-  reader(value);
-  reader.requireEnd();
-  return value;
-}
-
-Bytes chunkContent(std::span<const TsdfBrick> bricks) {
+StoredProduct storeChunk(std::span<const TsdfBrick> bricks, ProductWriter content) {
   std::vector<std::uint32_t> index;
   std::vector<std::uint16_t> sizes;
-  std::vector<TsdfVoxel> voxels;
+  std::size_t total = 0;
   for (const TsdfBrick& brick : bricks) {
     if (brick.voxels.size() > kBrickVoxels)
       throw std::invalid_argument("changed_bricks: a brick has " + std::to_string(brick.voxels.size()) +
                                   " voxels; allowed: 0 .. " + std::to_string(kBrickVoxels));
     index.push_back(brick.brick);
     sizes.push_back(static_cast<std::uint16_t>(brick.voxels.size()));
-    voxels.insert(voxels.end(), brick.voxels.begin(), brick.voxels.end());
+    total += brick.voxels.size();
   }
-  ByteWriter content;
-  content.reserve(voxels.size() * sizeof(TsdfVoxel) + bricks.size() * 6 + 64);
+  content.reserve(total * sizeof(TsdfVoxel) + bricks.size() * 6 + 128);
   content(index, sizes);
-  toPlanes(reinterpret_cast<const std::uint8_t*>(voxels.data()),
-           content.append(voxels.size() * sizeof(TsdfVoxel)), voxels.size(), sizeof(TsdfVoxel));
-  return content.take();
+  std::uint8_t* planes = content.append(total * sizeof(TsdfVoxel));
+  for (const TsdfBrick& brick : bricks) {
+    toPlanes(reinterpret_cast<const std::uint8_t*>(brick.voxels.data()), planes, brick.voxels.size(),
+             sizeof(TsdfVoxel), total);
+    planes += brick.voxels.size();
+  }
+  return storeProduct(content);
 }
 
-std::vector<TsdfBrick> chunkBricks(const Bytes& content) {
-  ByteReader reader(content);
+std::vector<TsdfBrick> openChunk(const OpenedProduct& opened) {
+  ByteReader reader = opened.reader();
   std::vector<std::uint32_t> index;
   std::vector<std::uint16_t> sizes;
   reader(index, sizes);
   if (index.size() != sizes.size()) throw DamagedBytes("bricks without a size");
   std::size_t total = 0;
   for (const std::uint16_t size : sizes) total += size;
-  const auto planes = reader.raw(total * sizeof(TsdfVoxel));
+  const std::uint8_t* planes = reader.raw(total * sizeof(TsdfVoxel)).data();
   reader.requireEnd();
-  std::vector<TsdfVoxel> voxels(total);
-  fromPlanes(planes.data(), reinterpret_cast<std::uint8_t*>(voxels.data()), total, sizeof(TsdfVoxel));
   std::vector<TsdfBrick> bricks(index.size());
-  auto from = voxels.cbegin();
   for (std::size_t i = 0; i < bricks.size(); ++i) {
     bricks[i].brick = index[i];
-    bricks[i].voxels.assign(from, from + sizes[i]);
-    from += sizes[i];
+    bricks[i].voxels.resize(sizes[i]);
+    fromPlanes(planes, reinterpret_cast<std::uint8_t*>(bricks[i].voxels.data()), sizes[i], sizeof(TsdfVoxel),
+               total);
+    planes += sizes[i];
   }
   return bricks;
 }
@@ -106,7 +89,7 @@ std::vector<StoredProduct> storeBricks(const std::string& stage, int step,
     const std::size_t first = c * kBricksPerChunk;
     const std::span all(bricks);
     const auto part = all.subspan(first, std::min(kBricksPerChunk, all.size() - first));
-    stored[c] = storeProduct(stage, chunkName(c), step, chunkContent(part));
+    stored[c] = storeChunk(part, ProductWriter(stage, chunkName(c), step));
   });
   return stored;
 }
@@ -122,8 +105,8 @@ bool isBricks(const std::string& name) {
 }
 
 RecordContent openContent(int step, bool closing, const FetchProduct& fetch) {
-  const Bytes bytes = openProduct(fetch(closing ? kClosingStage : kRecordStage, kRecordName), step);
-  ByteReader reader(bytes);
+  const OpenedProduct opened = openProduct(fetch(closing ? kClosingStage : kRecordStage, kRecordName), step);
+  ByteReader reader = opened.reader();
   RecordContent content;
   reader(content.record, content.products);
   reader.requireEnd();
@@ -177,20 +160,21 @@ void checkDepth(const DepthFrame& frame) {
 
 }  // namespace
 
-StoredProduct storeProduct(const std::string& stage, const std::string& name, int step,
-                           const Bytes& content) {
-  ByteWriter raw;
-  raw.reserve(content.size() + 64);
-  raw(stage, name, step);
-  if (!content.empty()) std::memcpy(raw.append(content.size()), content.data(), content.size());
-  if (raw.bytes().size() > kMaxProductBytes)
-    throw std::runtime_error(stage + "/" + name + " of step " + std::to_string(step) + " has " +
-                             std::to_string(raw.bytes().size()) + " bytes; a run file stores at most " +
-                             std::to_string(kMaxProductBytes) + " in one product");
-  return {stage, name, raw.bytes().size(), compress(raw.bytes())};
+ProductWriter::ProductWriter(std::string stage, std::string name, int step)
+    : stage_(std::move(stage)), name_(std::move(name)) {
+  (*this)(stage_, name_, step);
 }
 
-Bytes openProduct(const StoredProduct& product, int step) {
+StoredProduct storeProduct(const ProductWriter& content) {
+  const std::size_t size = content.bytes().size();
+  if (size > kMaxProductBytes)
+    throw std::runtime_error(content.stage() + "/" + content.name() + " has " + std::to_string(size) +
+                             " bytes; a run file stores at most " + std::to_string(kMaxProductBytes) +
+                             " in one product");
+  return {content.stage(), content.name(), size, compress(content.bytes())};
+}
+
+OpenedProduct openProduct(const StoredProduct& product, int step) {
   // 4 bytes of a frame stand for at most one block of 128 KiB.
   constexpr std::uint64_t kMaxRatio = 32768;
   const std::uint64_t size = ZSTD_getFrameContentSize(product.data.data(), product.data.size());
@@ -207,8 +191,8 @@ Bytes openProduct(const StoredProduct& product, int step) {
   reader(stage, name, own_step);
   if (stage != product.stage || name != product.name || own_step != step)
     throw DamagedBytes("another product lies in its place");
-  raw.erase(raw.begin(), raw.end() - static_cast<std::ptrdiff_t>(reader.remaining()));
-  return raw;
+  const std::size_t begin = raw.size() - reader.remaining();
+  return {std::move(raw), begin};
 }
 
 std::vector<StoredProduct> storeRecord(const StepRecord& record, int step) {
@@ -231,9 +215,9 @@ std::vector<StoredProduct> storeRecord(const StepRecord& record, int step) {
 
   std::vector<std::string> names;
   for (std::size_t i = 1; i < all.size(); ++i) names.push_back(all[i].name);
-  ByteWriter content;
+  ProductWriter content(stageOf(kRecordStage), kRecordName, step);
   content(record, names);
-  all[0] = storeProduct(stageOf(kRecordStage), kRecordName, step, content.bytes());
+  all[0] = storeProduct(content);
   return all;
 }
 
@@ -278,7 +262,7 @@ StepRecord openRecord(int step, bool closing, const FetchProduct& fetch, RunDeta
 void openBricks(int step, bool closing, const FetchProduct& fetch,
                 const std::function<void(std::vector<TsdfBrick>)>& take) {
   for (const std::string& name : openContent(step, closing, fetch).products)
-    if (isBricks(name)) take(chunkBricks(openProduct(fetch(closing ? kClosingStage : "fuse", name), step)));
+    if (isBricks(name)) take(openChunk(openProduct(fetch(closing ? kClosingStage : "fuse", name), step)));
 }
 
 }  // namespace vantage

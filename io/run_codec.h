@@ -22,12 +22,49 @@ struct StoredProduct {
 /// Largest product that is written or read, bytes before compression.
 inline constexpr std::uint64_t kMaxProductBytes = std::uint64_t{1} << 30;
 
-/// Compresses `content` under its name. \throws std::runtime_error if it is larger than kMaxProductBytes.
-StoredProduct storeProduct(const std::string& stage, const std::string& name, int step, const Bytes& content);
+/// A writer for the content of a product; storeProduct() takes it back.
+class ProductWriter : public ByteWriter {
+ public:
+  ProductWriter(std::string stage, std::string name, int step);
+  const std::string& stage() const { return stage_; }
+  const std::string& name() const { return name_; }
 
-/// The content of a product. Sizes are checked before anything is allocated.
+ private:
+  std::string stage_, name_;
+};
+
+/// Compresses a product. \throws std::runtime_error if it is larger than kMaxProductBytes.
+StoredProduct storeProduct(const ProductWriter& content);
+
+/// A product that is one value.
+template <class T>
+StoredProduct storeValue(const std::string& stage, const std::string& name, int step, const T& value) {
+  ProductWriter content(stage, name, step);
+  content(value);
+  return storeProduct(content);
+}
+
+/// A product's bytes and where its content begins in them.
+struct OpenedProduct {
+  Bytes bytes;
+  std::size_t begin = 0;
+  ByteReader reader() const { return ByteReader(std::span(bytes).subspan(begin)); }
+};
+
+/// Decompresses a product. Sizes are checked before anything is allocated.
 /// \throws DamagedBytes if the checksum, the size, or the name inside differ.
-Bytes openProduct(const StoredProduct& product, int step);
+OpenedProduct openProduct(const StoredProduct& product, int step);
+
+/// A product that is one value. \throws DamagedBytes
+template <class T>
+T openValue(const StoredProduct& product, int step) {
+  const OpenedProduct opened = openProduct(product, step);
+  ByteReader reader = opened.reader();
+  T value;
+  reader(value);
+  reader.requireEnd();
+  return value;
+}
 
 /// All products of a record, under `step`; those of a closing record have the stage "closing". The first is
 /// the record itself with its scalars and the names of the others.

@@ -78,17 +78,6 @@ std::optional<StoredProduct> findProduct(Database& database, int step, const std
   return StoredProduct{stage, name, static_cast<std::uint64_t>(s.integer(0)), s.blob(1)};
 }
 
-/// A product of the run itself. \throws DamagedBytes
-template <class T>
-T openRunValue(const StoredProduct& product) {
-  const Bytes bytes = openProduct(product, 0);
-  ByteReader reader(bytes);
-  T value;
-  reader(value);
-  reader.requireEnd();
-  return value;
-}
-
 FetchProduct fetchFrom(Database& database, int step) {
   return [&database, step](const std::string& stage, const std::string& name) {
     auto product = findProduct(database, step, stage, name);
@@ -121,7 +110,7 @@ Contents readContents(Database& database) {
   if (stored.has_value() != (database.number("SELECT count(*) FROM run WHERE key='stop_reason'") == 1))
     throw DamagedBytes("its end is lost");
   if (stored) {
-    const RunEnd end = openRunValue<RunEnd>(*stored);
+    const RunEnd end = openValue<RunEnd>(*stored, 0);
     if (end.steps != contents.steps || end.closing != contents.closing)
       throw DamagedBytes("steps are missing");
     contents.stop_reason = end.stop_reason;
@@ -196,8 +185,8 @@ RunReader::RunReader(const std::filesystem::path& path) : state_(std::make_uniqu
     const auto header = findRunProduct(database, "header");
     const auto truth = findRunProduct(database, "truth");
     if (!header || !truth) throw DamagedBytes("it is missing");
-    RunHeader h = openRunValue<RunHeader>(*header);
-    h.truth = openRunValue<TriangleMesh>(*truth);
+    RunHeader h = openValue<RunHeader>(*header, 0);
+    h.truth = openValue<TriangleMesh>(*truth, 0);
     checkHeader(h);
     return h;
   });

@@ -63,11 +63,8 @@ void createFile(const fs::path& path, const RunHeader& header) {
     Transaction transaction(database, "BEGIN IMMEDIATE");
     createSchema(database);
     insertHeader(database, header);
-    ByteWriter content, truth;
-    content(header);
-    truth(header.truth);
-    putRunProduct(database, storeProduct("run", "header", 0, content.bytes()));
-    putRunProduct(database, storeProduct("run", "truth", 0, truth.bytes()));
+    putRunProduct(database, storeValue("run", "header", 0, header));
+    putRunProduct(database, storeValue("run", "truth", 0, header.truth));
     transaction.commit();
   }
   removeSideFiles(path);
@@ -178,12 +175,10 @@ void RunWriter::finish(const std::string& stop_reason) {
   end.stop_reason = stop_reason;
   end.steps.assign(s.steps.begin(), s.steps.end());
   end.closing = s.closing;
-  ByteWriter content;
-  content(end);
   {
     Transaction transaction(s.database, "BEGIN IMMEDIATE");
     putRunValue(s.database, "stop_reason", stop_reason);
-    putRunProduct(s.database, storeProduct("run", "end", 0, content.bytes()));
+    putRunProduct(s.database, storeValue("run", "end", 0, end));
     transaction.commit();
   }
   s.fold();
