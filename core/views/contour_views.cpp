@@ -20,15 +20,17 @@ std::array<Eigen::Vector3d, 5> directionsAround(const Eigen::Vector3d& normal, d
   return {normal, along + aside * x, along + aside * y, along - aside * x, along - aside * y};
 }
 
-/// Rotation about the optical axis, exact for quarter turns.
+/// Rotation about the optical axis. Rolls a quarter (or else half) turn apart differ by exact swaps and signs
+/// of the axes, so that poses which share a grid of rays (D-B11) share it to the last bit.
 Eigen::Matrix3d rollMatrix(int roll, int rolls) {
-  static constexpr std::array<int, 4> kCosine{1, 0, -1, 0}, kSine{0, 1, 0, -1};
-  const double angle_rad = 2.0 * std::numbers::pi * roll / rolls;
+  const int turns = rolls % 4 == 0 ? 4 : rolls % 2 == 0 ? 2 : 1;
+  const int rolls_per_turn = rolls / turns;
+  const double angle_rad = 2.0 * std::numbers::pi * (roll % rolls_per_turn) / rolls;
   double c = std::cos(angle_rad), s = std::sin(angle_rad);
-  if (4 * roll % rolls == 0) {
-    const int quarter = 4 * roll / rolls % 4;
-    c = kCosine[quarter];
-    s = kSine[quarter];
+  for (int quarter = 0; quarter < roll / rolls_per_turn * (4 / turns); ++quarter) {
+    const double next_s = c;
+    c = -s;
+    s = next_s;
   }
   Eigen::Matrix3d R;
   R << c, -s, 0, s, c, 0, 0, 0, 1;
