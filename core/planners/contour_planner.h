@@ -85,7 +85,7 @@ struct SearchCounts {
   std::uint64_t poses_unreachable = 0;      ///< above the threshold, tried before the chosen one and skipped
   std::uint64_t poses_executed_before = 0;  ///< above the threshold, before the chosen one, skipped by D-B15
   std::uint64_t rays = 0;                   ///< rays cast to score poses; shared ones once
-  std::uint64_t voxels_visited = 0;         ///< by the plain walks of the scored poses' distinct casts
+  std::uint64_t voxels_visited = 0;         ///< by a plain walk of those rays
   std::uint64_t paths_planned = 0;          ///< calls of the path planner
 };
 

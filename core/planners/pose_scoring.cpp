@@ -1,8 +1,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
-#include <numbers>
 #include <utility>
 
 #include "core/planners/contour_groups.h"
@@ -13,7 +11,8 @@ namespace {
 /// What one position's casts found: counts per distinct roll, roll r at r % counts.size().
 struct PositionCounts {
   std::vector<VisibilityCounts> of_roll;
-  std::uint64_t rays = 0;
+  std::uint64_t rays = 0;     ///< shared ones once
+  std::uint64_t visited = 0;  ///< voxels of those rays
 };
 
 /// How the rolls of a position share casts (D-B11).
@@ -54,6 +53,7 @@ class PositionCaster {
       QuarterTurnCounts turns =
           castQuarterTurns(input_.states, camera_, rolledPose(position, roll, views_), query_);
       counts.rays += turns.rays_cast;
+      counts.visited += turns.visited;
       counts.of_roll[roll] = std::move(turns.upright);
       counts.of_roll[roll + quarter] = std::move(turns.sideways);
     }
@@ -65,6 +65,7 @@ class PositionCaster {
       counts.of_roll.push_back(
           castUniform(input_.states, camera_, rolledPose(position, roll, views_), query_));
       counts.rays += counts.of_roll.back().rays;
+      counts.visited += counts.of_roll.back().visited;
     }
   }
 
@@ -136,7 +137,7 @@ void scoreSegment(const ViewSearchInput& input, const ContourPlannerConfig& conf
   for (std::size_t n = 0; n < positions.size(); ++n) {
     appendScores(input, config, input.positions[positions[n]], found[n], search);
     counts.rays += found[n].rays;
-    for (const VisibilityCounts& c : found[n].of_roll) counts.voxels_visited += c.visited;
+    counts.voxels_visited += found[n].visited;
   }
   std::sort(search.scores.begin(), search.scores.end(), [](const PoseScore& a, const PoseScore& b) {
     return std::pair(-a.gain, a.id) < std::pair(-b.gain, b.id);

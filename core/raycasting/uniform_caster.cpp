@@ -55,7 +55,7 @@ QuarterTurnCounts castQuarterTurns(const StateGrid& grid, const PinholeCamera& c
   casting::HitCounter upright(query, grid.geometry());
   upright.cast(path, grid, camera, T_world_camera, square);
   casting::HitCounter sideways = upright;
-  const std::uint64_t shared = upright.counts().rays;
+  const std::uint64_t shared_rays = upright.counts().rays, shared_visits = upright.counts().visited;
   casting::HitCounter& wide = grow > 0 ? upright : sideways;
   casting::HitCounter& tall = grow > 0 ? sideways : upright;
   const int beside = std::abs(grow);
@@ -64,8 +64,9 @@ QuarterTurnCounts castQuarterTurns(const StateGrid& grid, const PinholeCamera& c
   wide.cast(path, grid, camera, T_world_camera, {s.u1, s.v0, s.u1 + beside, s.v1});
   tall.cast(path, grid, camera, T_world_camera, {s.u0, s.v0 - beside, s.u1, s.v0});
   tall.cast(path, grid, camera, T_world_camera, {s.u0, s.v1, s.u1, s.v1 + beside});
-  QuarterTurnCounts result{upright.counts(), sideways.counts(), 0};
-  result.rays_cast = result.upright.rays + result.sideways.rays - shared;
+  QuarterTurnCounts result{upright.counts(), sideways.counts(), 0, 0};
+  result.rays_cast = result.upright.rays + result.sideways.rays - shared_rays;
+  result.visited = result.upright.visited + result.sideways.visited - shared_visits;
   return result;
 }
 

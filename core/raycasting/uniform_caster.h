@@ -60,6 +60,7 @@ struct QuarterTurnCounts {
   VisibilityCounts upright;     ///< rolls 0 and 180 deg relative to `T_world_camera`
   VisibilityCounts sideways;    ///< rolls 90 and 270 deg
   std::uint64_t rays_cast = 0;  ///< rays of the shared grid, less than the sum of both bundles
+  std::uint64_t visited = 0;    ///< voxels a plain walk of those rays visits
 };
 
 /// True if rolls by 90 deg share one pixel grid: square pixels, centred principal point, and width and height

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <numeric>
 #include <random>
 
@@ -65,6 +66,19 @@ TEST(ScoreSegment, TwoCastsServeEightRolls) {
   }
   EXPECT_LT(counts.rays, 5u * 4u * 128u * 106u);  // less than four casts a position
   EXPECT_GE(counts.rays, 5u * 2u * 128u * 106u);
+  std::uint64_t rays = 0, visited = 0;
+  for (int n = 5; n < 10; ++n)  // the positions of point 1
+    for (const int roll : {0, 1}) {
+      const QuarterTurnCounts shared = castQuarterTurns(
+          world.states, world.camera, rolledPose(world.positions[n], roll, world.config.views),
+          sphereQuery(world, 1, world.config.gain.sphere_margin_m));
+      rays += shared.rays_cast;
+      visited += shared.visited;
+      EXPECT_LT(shared.visited, shared.upright.visited + shared.sideways.visited);
+      EXPECT_GT(shared.visited, std::max(shared.upright.visited, shared.sideways.visited));
+    }
+  EXPECT_EQ(counts.rays, rays);
+  EXPECT_EQ(counts.voxels_visited, visited);
 }
 
 TEST(ScoreSegment, CastsEachRollWhereTheyShareNothing) {
