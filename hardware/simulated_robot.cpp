@@ -8,7 +8,7 @@ FreeFlyer::FreeFlyer(const FreeFlyerConfig& config, const Pose& T_world_camera)
 }
 
 void FreeFlyer::observe(const StateGrid& states) {
-  grid_ = CollisionGrid(states, config_.cell_m);
+  grid_ = CollisionGrid(states, config_.cell_m, config_.body_radius_m);
 }
 
 MotionPlan FreeFlyer::plan(const Pose& T_world_camera, std::uint64_t seed) {
