@@ -1,3 +1,4 @@
 # vantage_core's bulk loops. The machine and its load stand in the context that the programs print first; the number of
 # threads, where there can be more than one, is an argument of the case.
 vantage_benchmark(gain_benchmark gain_benchmark.cpp workload.cpp benchmark_main.cpp LIBS vantage_raycasting TBB::tbb)
+vantage_benchmark(fusion_benchmark fusion_benchmark.cpp workload.cpp benchmark_main.cpp LIBS vantage_volume TBB::tbb)
