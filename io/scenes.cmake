@@ -7,11 +7,11 @@ vantage_library(vantage_io_scene
   SOURCES
     embedded_assets.cpp
     mesh_file.cpp
-    mesh_ply.cpp
     scene_file.cpp
     scene_rays.cpp
     scene_solids.cpp
     scene_table.cpp
+    scene_truth.cpp
     solid.cpp
     solid_lathe.cpp
     solid_mesh.cpp
