@@ -172,6 +172,10 @@ void JsonSummary::write(const std::string& path) const {
   if (!file.flush()) throw std::runtime_error(path + ": cannot write the JSON summary; is the disk full?");
 }
 
+std::string stepJsonText(const StepRecord& record) {
+  return stepObject(record, false).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 std::unique_ptr<JsonSummary> jsonSummary(const RunReader& run) {
   auto summary = std::make_unique<JsonSummary>(run.header());
   for (const int step : run.steps()) summary->add(run.step(step, RunDetail::NoVolume));

@@ -35,6 +35,9 @@ class JsonSummary {
   std::unique_ptr<State> state_;
 };
 
+/// The object of one entry of steps[], indented: what one planned step is in `plan --json`.
+std::string stepJsonText(const StepRecord& record);
+
 /// The same object from a recorded run.
 std::unique_ptr<JsonSummary> jsonSummary(const RunReader& run);
 
