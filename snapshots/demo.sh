@@ -10,4 +10,4 @@ mkdir -p "$out"
 build/bin/vantage explore "$scene" -o "$out/$scene.vantage" --snapshots "$out/$scene" --json "$out/$scene.json"
 echo
 echo "The run:      $out/$scene.vantage"
-echo "The pictures: $out/$scene/ (start with contact_sheet.png)"
+echo "The pictures: $out/$scene/ (start with $scene-sheet.png)"

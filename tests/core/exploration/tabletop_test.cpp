@@ -33,7 +33,7 @@ TabletopRun explore(int threads) {
   Settings settings;
   applyToml(settings, scene.text, "tabletop", sceneGeometryKeys());
   TabletopRun run;
-  run.truth = std::make_unique<SceneTruth>(scene, settings.exploration.volume.bounds());
+  run.truth = std::make_unique<SceneTruth>(scene);
   SimulatedDepthCamera camera(scene, {settings.camera, settings.sensor, settings.exploration.seed});
   FreeFlyer robot(settings.free_flyer, initialScanPoses(settings.exploration.scan).back());
   Explorer explorer(settings.exploration, camera, robot, run.truth.get());

@@ -1,0 +1,128 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "core/exploration/explorer.h"
+#include "core/gpu/egl_context.h"
+#include "io/json_summary.h"
+#include "io/run_file.h"
+#include "snapshots/snapshot.h"
+#include "viewer/app/command.h"
+#include "viewer/app/console.h"
+#include "viewer/app/inputs.h"
+#include "viewer/app/step_text.h"
+
+namespace vantage::app {
+namespace {
+
+struct ExploreOptions {
+  std::string input, run, planner, robot = "free", snapshots;
+  std::optional<int> steps;
+};
+
+RunHeader makeHeader(const GlobalOptions& global, const ExploreOptions& options,
+                     const ExplorationInput& input) {
+  const Settings& settings = input.settings;
+  RunHeader header;
+  header.input = options.input;
+  header.planner = settings.planner();
+  header.robot = options.robot;
+  header.command_line = global.command_line;
+  header.version = VANTAGE_VERSION;
+  header.scene_toml = input.scene_text;
+  header.config_toml = effectiveToml(settings);
+  header.seed = settings.exploration.seed;
+  header.threads = threadsInUse();
+  header.camera = input.camera->model();
+  header.volume = settings.exploration.volume;
+  header.workspace = settings.exploration.workspace;
+  header.planner_config = settings.exploration.planner;
+  header.free_flyer = settings.free_flyer;
+  header.replay = input.replay;
+  header.truth = input.truth_mesh;
+  return header;
+}
+
+void announce(const GlobalOptions& global, const ExploreOptions& options, const Settings& settings) {
+  const GridGeometry& volume = settings.exploration.volume;
+  const GainConfig& gain = settings.exploration.planner.gain;
+  say(global, fmt::format("{}: {} planner, {} NBVs, {} x {} x {} voxels of {:.3f} mm, seed {}", options.input,
+                          settings.planner(), settings.exploration.steps, volume.size.x(), volume.size.y(),
+                          volume.size.z(), volume.voxel_size_m * 1e3, settings.exploration.seed));
+  say(global, fmt::format("gains: first-hit unknown rays at 1/{} of the resolution x {}, threshold {:g} rays",
+                          gain.reduction, gain.reduction * gain.reduction, gain.gain_threshold));
+}
+
+/// Pictures of every step, from the run file alone.
+void takePictures(const GlobalOptions& global, const ExploreOptions& options, Console& console) {
+  SnapshotRequest request;
+  request.output = options.snapshots;
+  const auto files = takeSnapshots(options.run, request, console.control());
+  console.clear();
+  say(global, fmt::format("{} pictures in {}", files.size(), options.snapshots));
+}
+
+int explore(const GlobalOptions& global, ExploreOptions options) {
+  if (!options.snapshots.empty()) EglContext probe;  // no pictures, no point: say so before the work
+  ExplorationInput input = openExplorationInput(global, options.input, options.planner, options.steps);
+  if (options.run.empty()) options.run = input.name + ".vantage";
+  Console console(global);
+  announce(global, options, input.settings);
+
+  Explorer explorer(input.settings.exploration, *input.camera, *input.robot, input.truth.get());
+  const RunHeader header = makeHeader(global, options, input);
+  RunWriter writer(options.run, header);
+  JsonSummary json(header);
+  explorer.addObserver([&](const std::shared_ptr<const StepRecord>& record) {
+    logDetail(stageText(*record));
+    if (record->stage == Stage::Realised) {
+      writer.setRealised(*record);
+      json.setRealised(*record);
+    }
+    if (record->stage != Stage::Done) return;
+    writer.write(*record);
+    json.add(*record);
+    console.clear();
+    say(global, stepText(*record));
+  });
+  const ExplorationResult result = explorer.run(console.control());
+  writer.finish(result.stop_reason);
+  json.finish(result.stop_reason);
+  console.clear();
+  say(global,
+      fmt::format("{} after {} steps; recorded in {}", result.stop_reason, result.steps, options.run));
+  if (!global.json.empty()) json.write(global.json);
+  if (console.interrupted())
+    throw Interrupted(fmt::format("{}: interrupted; {} finished steps are kept", options.run, result.steps));
+  if (!options.snapshots.empty()) takePictures(global, options, console);
+  return 0;
+}
+
+}  // namespace
+
+void addExplore(CLI::App& app, const GlobalOptions& global, Action& action) {
+  auto options = std::make_shared<ExploreOptions>();
+  CLI::App* command =
+      app.add_subcommand("explore", "Explore a scene or replay a data set: the whole loop, recorded");
+  command
+      ->add_option("input", options->input,
+                   "Embedded scene, scene TOML, or folder of a recorded RGB-D sequence")
+      ->required()
+      ->type_name("SCENE|DATASET");
+  command->add_option("-o,--output", options->run, "Run file to write (default: NAME.vantage)")
+      ->type_name("RUN");
+  command->add_option("--planner", options->planner, "How views are chosen")
+      ->check(CLI::IsMember({kPlannerContour, kPlannerStandard}));
+  command->add_option("--steps", options->steps, "Number of next best views")
+      ->check(CLI::Range(0, 100000))
+      ->type_name("N");
+  command->add_option("--robot", options->robot, "What carries the camera")->check(CLI::IsMember({"free"}));
+  command->add_option("--snapshots", options->snapshots, "Folder for pictures of every step")
+      ->type_name("DIR");
+  command->footer("Example: vantage explore tabletop -o tabletop.vantage --snapshots pictures");
+  command->callback(
+      [&global, &action, options] { action = [&global, options] { return explore(global, *options); }; });
+}
+
+}  // namespace vantage::app

@@ -1,0 +1,138 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "core/perception/surface_cloud.h"
+#include "io/cloud_file.h"
+#include "io/dataset.h"
+#include "io/volume_file.h"
+#include "viewer/app/command.h"
+#include "viewer/app/console.h"
+#include "viewer/app/inputs.h"
+#include "viewer/app/json_output.h"
+
+namespace vantage::app {
+namespace {
+
+struct FuseOptions {
+  std::string dataset, output, frames, mesh, cloud;
+  std::optional<double> voxel_size_m, truncation_m;
+  std::vector<double> bounds;
+};
+
+/// Half-open range of positions in the sequence from "A:B"; either side may be left out.
+std::pair<std::size_t, std::size_t> frameRange(const std::string& text, std::size_t count) {
+  if (text.empty()) return {0, count};
+  const auto bad = [&] {
+    return InputError(
+        "--frames " + text,
+        fmt::format("not a range of frames; give A:B, first and one past the last, 0 .. {}", count));
+  };
+  const auto number = [&](std::string_view part, std::size_t otherwise) {
+    if (part.empty()) return otherwise;
+    std::size_t value = 0;
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    if (error != std::errc() || end != part.data() + part.size()) throw bad();
+    return value;
+  };
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) throw bad();
+  const std::size_t first = number(std::string_view(text).substr(0, colon), 0);
+  const std::size_t last = number(std::string_view(text).substr(colon + 1), count);
+  if (first >= last || last > count) throw bad();
+  return {first, last};
+}
+
+/// Bounds rounded outward to whole voxels (the origin is the centre of the first).
+GridGeometry boundedVolume(const std::vector<double>& b, double voxel_size_m) {
+  GridGeometry geometry;
+  geometry.voxel_size_m = voxel_size_m;
+  for (int a = 0; a < 3; ++a) {
+    if (!(b[a] < b[a + 3]))
+      throw InputError("--bounds", "a lower limit is not below its upper one; give x0,y0,z0,x1,y1,z1");
+    const double first = std::floor(b[a] / voxel_size_m), last = std::ceil(b[a + 3] / voxel_size_m);
+    if (last - first > 1 << 20)
+      throw InputError("--bounds",
+                       "more than a million voxels along one axis; choose smaller bounds or larger voxels");
+    geometry.origin_m[a] = (first + 0.5) * voxel_size_m;
+    geometry.size[a] = std::max(2, static_cast<int>(last - first));
+  }
+  return geometry;
+}
+
+/// The same box with another voxel size.
+GridGeometry resampled(const GridGeometry& geometry, double voxel_size_m) {
+  const Box box = geometry.bounds();
+  return boundedVolume(
+      {box.min().x(), box.min().y(), box.min().z(), box.max().x(), box.max().y(), box.max().z()},
+      voxel_size_m);
+}
+
+int fuse(const GlobalOptions& global, const FuseOptions& options) {
+  Dataset dataset = openDataset(options.dataset);
+  Settings settings = datasetSettings(global, dataset);
+  GridGeometry geometry = settings.exploration.volume;
+  FusionConfig fusion = settings.exploration.fusion;
+  if (options.voxel_size_m) geometry = resampled(geometry, *options.voxel_size_m);
+  if (!options.bounds.empty()) geometry = boundedVolume(options.bounds, geometry.voxel_size_m);
+  if (options.truncation_m) fusion.truncation_m = *options.truncation_m;
+  fusion.validate(geometry.voxel_size_m);
+
+  const auto [first, last] = frameRange(options.frames, dataset.frames.size());
+  TsdfVolume volume(geometry);
+  std::uint64_t updated = 0;
+  Console console(global);
+  const RunControl control = console.control();
+  for (std::size_t n = first; n < last; ++n) {
+    if (console.interrupted()) throw Interrupted(options.output + ": interrupted; nothing was written");
+    control.report("fuse", n - first, last - first);
+    updated +=
+        fuseDepth(volume, loadDepth(dataset, n), settings.camera, dataset.frames[n].T_world_camera, fusion)
+            .voxels_updated;
+  }
+  console.clear();
+  writeVolume(options.output, volume);
+  if (!options.mesh.empty() || !options.cloud.empty()) {
+    const SurfaceCloud surface =
+        extractSurface(volume, settings.exploration.planner.contours.weight_threshold);
+    if (!options.mesh.empty()) writeMesh(options.mesh, surface);
+    if (!options.cloud.empty()) writeCloud(options.cloud, surface);
+  }
+  say(global, fmt::format("{} frames into {} x {} x {} voxels of {:.3f} mm, {} voxel updates", last - first,
+                          geometry.size.x(), geometry.size.y(), geometry.size.z(),
+                          geometry.voxel_size_m * 1e3, updated));
+  writeJson(global.json, {{"frames", last - first},
+                          {"size", {geometry.size.x(), geometry.size.y(), geometry.size.z()}},
+                          {"voxel_size_m", geometry.voxel_size_m},
+                          {"voxels_updated", updated}});
+  return 0;
+}
+
+}  // namespace
+
+void addFuse(CLI::App& app, const GlobalOptions& global, Action& action) {
+  auto o = std::make_shared<FuseOptions>();
+  CLI::App* command = app.add_subcommand("fuse", "Depth frames with poses into a TSDF");
+  command->add_option("dataset", o->dataset, "Folder of a recorded RGB-D sequence")
+      ->required()
+      ->type_name("DATASET");
+  command->add_option("-o,--output", o->output, "TSDF to write (.vti)")->required()->type_name("MAP.vti");
+  command->add_option("--frames", o->frames, "Positions in the sequence, first and one past the last")
+      ->type_name("A:B");
+  command->add_option("--voxel-size", o->voxel_size_m, "Voxel edge, metres")->type_name("M");
+  command->add_option("--truncation", o->truncation_m, "Truncation distance, metres")->type_name("M");
+  command->add_option("--bounds", o->bounds, "Mapped box, metres, rounded outward to whole voxels")
+      ->delimiter(',')
+      ->expected(6)
+      ->type_name("x0,y0,z0,x1,y1,z1");
+  command->add_option("--mesh", o->mesh, "Also the surface as a mesh")->type_name("FILE.ply");
+  command->add_option("--cloud", o->cloud, "Also the surface points with normals")->type_name("FILE.pcd");
+  command->footer("Example: vantage fuse recordings/tray -o tray.vti --voxel-size 0.004 --mesh tray.ply");
+  command->callback([&global, &action, o] { action = [&global, o] { return fuse(global, *o); }; });
+}
+
+}  // namespace vantage::app

@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "io/cloud_file.h"
+#include "io/dataset.h"
+#include "io/run_file.h"
+#include "io/scene_file.h"
+#include "io/table_file.h"
+#include "viewer/app/command.h"
+#include "viewer/app/console.h"
+#include "viewer/app/inputs.h"
+#include "viewer/app/json_output.h"
+
+namespace vantage::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// One fact a line for people, one member for programs.
+Json describeRun(const std::string& path) {
+  const RunReader run(path);
+  const RunHeader& h = run.header();
+  std::uint64_t raw = 0, stored = 0;
+  for (const ProductInfo& product : run.products()) {
+    raw += product.raw_bytes;
+    stored += product.stored_bytes;
+  }
+  return {{"kind", "run"},
+          {"input", h.input},
+          {"planner", h.planner},
+          {"robot", h.robot},
+          {"version", h.version},
+          {"seed", h.seed},
+          {"steps", run.steps().size()},
+          {"closing_scan", run.hasClosing()},
+          {"stop_reason", run.stopReason() ? Json(*run.stopReason()) : Json()},
+          {"voxels", {h.volume.size.x(), h.volume.size.y(), h.volume.size.z()}},
+          {"voxel_size_m", h.volume.voxel_size_m},
+          {"product_bytes", raw},
+          {"stored_bytes", stored},
+          {"command", h.command_line}};
+}
+
+Json describeMap(const GlobalOptions& global, const std::string& path) {
+  const LoadedMap map = loadMap(global, path);
+  const GridGeometry& g = map.volume.geometry();
+  std::array<std::uint64_t, 3> states{};
+  std::uint16_t heaviest = 0;
+  for (const TsdfVoxel& voxel : map.volume.voxels()) {
+    ++states[static_cast<std::size_t>(voxel.state())];
+    heaviest = std::max(heaviest, voxel.weight);
+  }
+  return {{"kind", "tsdf"},
+          {"voxels", {g.size.x(), g.size.y(), g.size.z()}},
+          {"voxel_size_m", g.voxel_size_m},
+          {"origin_m", {g.origin_m.x(), g.origin_m.y(), g.origin_m.z()}},
+          {"unknown", states[0]},
+          {"free", states[1]},
+          {"occupied", states[2]},
+          {"largest_weight", heaviest}};
+}
+
+Json describeDataset(const std::string& path) {
+  const Dataset dataset = openDataset(path);
+  const PinholeCamera& c = dataset.camera;
+  return {{"kind", "data set"},
+          {"frames", dataset.frames.size()},
+          {"image", {c.width, c.height}},
+          {"intrinsics", {c.fx, c.fy, c.cx, c.cy}}};
+}
+
+Json describeCloud(const std::string& path) {
+  const SurfaceCloud cloud = readCloud(path);
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& p : cloud.points)
+    if (p.allFinite()) box.extend(p);
+  Json json = {{"kind", "cloud"}, {"points", cloud.points.size()}, {"triangles", cloud.triangles.size()}};
+  if (!box.isEmpty()) {
+    json["min_m"] = {box.min().x(), box.min().y(), box.min().z()};
+    json["max_m"] = {box.max().x(), box.max().y(), box.max().z()};
+  }
+  return json;
+}
+
+Json describeScene(const std::string& name) {
+  const SceneFile scene = loadScene(name);
+  std::vector<std::string> objects;
+  for (const Solid& solid : scene.solids)
+    if (!solid.object().empty() && std::find(objects.begin(), objects.end(), solid.object()) == objects.end())
+      objects.push_back(solid.object());
+  return {{"kind", "scene"},
+          {"name", scene.name},
+          {"description", scene.description},
+          {"solids", scene.solids.size()},
+          {"objects", objects}};
+}
+
+Json describe(const GlobalOptions& global, const std::string& path) {
+  const std::string extension = std::filesystem::path(path.substr(0, path.find('#'))).extension().string();
+  if (path.find('#') != std::string::npos || extension == ".vti") return describeMap(global, path);
+  if (extension == ".vantage") return describeRun(path);
+  if (extension == ".pcd" || extension == ".ply") return describeCloud(path);
+  if (std::filesystem::is_directory(path)) return describeDataset(path);
+  if (extension == ".csv") return {{"kind", "views"}, {"views", readViews(path).size()}};
+  if (extension == ".toml" || extension.empty()) return describeScene(path);
+  throw InputError(path,
+                   "not a kind of file that is known; known: .vantage, .vti, .pcd, .ply, .csv (views), "
+                   ".toml, data set folders");
+}
+
+int info(const GlobalOptions& global, const std::string& path) {
+  const Json facts = describe(global, path);
+  if (global.json != "-")
+    for (const auto& [key, value] : facts.items())
+      fmt::print("{:<15} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+  writeJson(global.json, facts);
+  return 0;
+}
+
+}  // namespace
+
+void addInfo(CLI::App& app, const GlobalOptions& global, Action& action) {
+  auto path = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("info", "What a file holds: run, map, cloud, scene, data set");
+  command->add_option("file", *path, "Run, RUN#STEP, .vti, .pcd, .ply, view CSV, scene, or data set folder")
+      ->required()
+      ->type_name("FILE");
+  command->footer("Example: vantage info tabletop.vantage");
+  command->callback([&global, &action, path] { action = [&global, path] { return info(global, *path); }; });
+}
+
+}  // namespace vantage::app

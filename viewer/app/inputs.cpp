@@ -1,0 +1,177 @@
+#include "viewer/app/inputs.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+#include "hardware/replay_depth_camera.h"
+#include "hardware/simulated_depth_camera.h"
+#include "hardware/simulated_robot.h"
+#include "io/scene_file.h"
+#include "io/scene_truth.h"
+#include "io/volume_file.h"
+#include "viewer/app/console.h"
+
+namespace vantage::app {
+namespace {
+
+/// The command line's part: --config, --set, --seed.
+void applyCommandLine(Settings& settings, const GlobalOptions& global) {
+  for (const std::string& file : global.config_files) applyTomlFile(settings, file);
+  for (const std::string& assignment : global.assignments) applyAssignment(settings, assignment);
+  if (global.seed) applyAssignment(settings, fmt::format("exploration.seed={}", *global.seed), "--seed");
+}
+
+void applyScene(Settings& settings, const SceneFile& scene) {
+  applyToml(settings, scene.text, scene.source_path, sceneGeometryKeys());
+}
+
+/// Settings derived from the data set where it lies now, under what the user says.
+Settings layeredSettings(const GlobalOptions& global, const Dataset& dataset) {
+  Settings settings = settingsForDataset(dataset);
+  applyUserConfig(settings);
+  applyCommandLine(settings, global);
+  return settings;
+}
+
+/// Where views could be taken: in the mapped volume, above the lowest height of the sensor.
+FeasibleViews feasibleViews(const Settings& settings) {
+  FeasibleViews views;
+  views.region = settings.exploration.volume.bounds();
+  views.region.min().z() = std::max(views.region.min().z(), settings.free_flyer.min_height_m);
+  views.body_radius_m = settings.free_flyer.body_radius_m;
+  views.distance_m = settings.exploration.planner.views.distances_m.front();
+  return views;
+}
+
+ExplorationInput openScene(const GlobalOptions& global, const std::string& name) {
+  const SceneFile scene = loadScene(name);
+  ExplorationInput input;
+  input.name = scene.name;
+  input.scene_text = scene.text;
+  Settings& s = input.settings;
+  applyUserConfig(s);
+  applyScene(s, scene);
+  applyCommandLine(s, global);
+  s.validate();
+  input.camera = std::make_unique<SimulatedDepthCamera>(
+      scene, SimulatedCameraConfig{s.camera, s.sensor, s.exploration.seed});
+  input.robot = std::make_unique<FreeFlyer>(s.free_flyer, initialScanPoses(s.exploration.scan).back());
+  input.truth = std::make_unique<SceneTruth>(scene, feasibleViews(s));
+  input.truth_mesh = sceneMesh(scene, false);
+  return input;
+}
+
+ExplorationInput openReplay(const GlobalOptions& global, const std::string& folder) {
+  Dataset dataset = openDataset(folder);
+  ExplorationInput input;
+  input.name = std::filesystem::canonical(folder).filename().string();
+  input.replay = true;
+  input.settings = datasetSettings(global, dataset);
+  input.robot = std::make_unique<FreeFlyer>(input.settings.free_flyer, dataset.frames.front().T_world_camera);
+  input.camera = std::make_unique<ReplayDepthCamera>(std::move(dataset));
+  return input;
+}
+
+struct RunMap {
+  std::string path;
+  std::string step;  ///< empty = the last map
+};
+
+std::optional<RunMap> asRunMap(const std::string& map) {
+  const std::size_t hash = map.rfind('#');
+  if (hash != std::string::npos) return RunMap{map.substr(0, hash), map.substr(hash + 1)};
+  if (std::filesystem::path(map).extension() == ".vantage") return RunMap{map, ""};
+  return std::nullopt;
+}
+
+/// The step that a RUN#STEP names; closingStep() for the map after the last scan.
+int findStep(const RunReader& run, const RunMap& map) {
+  const std::vector<int> steps = run.steps();
+  if (steps.empty()) throw InputError(map.path, "holds no finished step yet");
+  if (map.step == "end" || map.step.empty()) {
+    if (run.hasClosing()) return run.closingStep();
+    if (map.step.empty()) return steps.back();
+    throw InputError(map.path + "#end",
+                     "the run has no closing scan; name a step, 1 .. " + std::to_string(steps.back()));
+  }
+  int step = 0;
+  const auto [end, error] = std::from_chars(map.step.data(), map.step.data() + map.step.size(), step);
+  if (error != std::errc() || end != map.step.data() + map.step.size() ||
+      std::find(steps.begin(), steps.end(), step) == steps.end())
+    throw InputError(map.path + "#" + map.step,
+                     fmt::format("no such step; allowed: {} .. {} or 'end'", steps.front(), steps.back()));
+  return step;
+}
+
+LoadedMap loadRunMap(const GlobalOptions& global, const RunMap& map) {
+  const RunReader run(map.path);
+  LoadedMap loaded;
+  applyUserConfig(loaded.settings);
+  applyToml(loaded.settings, run.header().config_toml, map.path);
+  applyCommandLine(loaded.settings, global);
+  loaded.settings.validate();
+  const int step = findStep(run, map);
+  loaded.volume = TsdfVolume(run.header().volume);
+  run.advanceVolume(loaded.volume, 0, step);
+  loaded.record =
+      step == run.closingStep() ? run.closing(RunDetail::NoVolume) : run.step(step, RunDetail::NoVolume);
+  return loaded;
+}
+
+}  // namespace
+
+ExplorationInput openExplorationInput(const GlobalOptions& global, const std::string& name,
+                                      const std::string& planner, std::optional<int> steps) {
+  GlobalOptions options = global;  // --planner and --steps are short for settings and beat them
+  if (!planner.empty()) options.assignments.push_back("exploration.planner=" + planner);
+  if (steps) options.assignments.push_back(fmt::format("exploration.steps={}", *steps));
+  return std::filesystem::is_directory(name) ? openReplay(options, name) : openScene(options, name);
+}
+
+Settings commandSettings(const GlobalOptions& global) {
+  Settings settings;
+  applyUserConfig(settings);
+  applyCommandLine(settings, global);
+  settings.validate();
+  return settings;
+}
+
+Settings sceneSettings(const GlobalOptions& global, const std::string& scene) {
+  Settings settings;
+  applyUserConfig(settings);
+  if (!scene.empty()) applyScene(settings, loadScene(scene));
+  applyCommandLine(settings, global);
+  settings.validate();
+  return settings;
+}
+
+Settings datasetSettings(const GlobalOptions& global, Dataset& dataset) {
+  for (const std::string& warning : dataset.warnings) warn(warning);
+  Settings settings = layeredSettings(global, dataset);
+  if (!settings.T_world_dataset().isApprox(dataset.T_world_dataset, 1e-12)) {
+    placeDataset(dataset, settings.T_world_dataset());
+    settings = layeredSettings(global, dataset);
+  }
+  settings.validate();
+  return settings;
+}
+
+LoadedMap loadMap(const GlobalOptions& global, const std::string& map) {
+  if (const auto run = asRunMap(map)) return loadRunMap(global, *run);
+  LoadedMap loaded;
+  loaded.settings = commandSettings(global);
+  std::vector<std::string> warnings;
+  loaded.volume = readVolume(map, warnings);
+  for (const std::string& warning : warnings) warn(warning);
+  return loaded;
+}
+
+int threadsInUse() {
+  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
+}  // namespace vantage::app

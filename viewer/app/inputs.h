@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/exploration/ports.h"
+#include "core/geometry/triangle_mesh.h"
+#include "io/config_file.h"
+#include "io/dataset.h"
+#include "io/run_file.h"
+#include "viewer/app/command.h"
+
+namespace vantage::app {
+
+/// Everything an exploration needs, wired from a scene or a data set.
+struct ExplorationInput {
+  std::string name;        ///< scene name or data set folder name
+  std::string scene_text;  ///< scene TOML, empty for a data set
+  bool replay = false;
+  Settings settings;
+  std::unique_ptr<DepthCamera> camera;
+  std::unique_ptr<Robot> robot;
+  std::unique_ptr<GroundTruth> truth;  ///< null for a data set
+  TriangleMesh truth_mesh;
+};
+
+/// Opens SCENE (embedded name or TOML file) or DATASET (a folder). Settings: defaults < user file < scene or
+/// data set < --config < --set; `planner` and `steps` override them. \throws InputError
+ExplorationInput openExplorationInput(const GlobalOptions& global, const std::string& input,
+                                      const std::string& planner, std::optional<int> steps);
+
+/// Settings of commands that take no scene: defaults < user file < --config < --set. \throws InputError
+Settings commandSettings(const GlobalOptions& global);
+
+/// Settings of a scene, or of none if `scene` is empty. \throws InputError
+Settings sceneSettings(const GlobalOptions& global, const std::string& scene);
+
+/// Settings of a data set: derived from it < user file < --config < --set. Moves it if they place it
+/// elsewhere in the world. \throws InputError
+Settings datasetSettings(const GlobalOptions& global, Dataset& dataset);
+
+/// A map from a file and what is known about where it came from.
+struct LoadedMap {
+  TsdfVolume volume;
+  std::optional<StepRecord> record;  ///< of RUN#STEP, for a step that planned
+  Settings settings;                 ///< commandSettings(), over the run's own configuration for RUN#STEP
+};
+
+/// MAP: a `.vti` file, `RUN.vantage` (its last map), `RUN.vantage#STEP` or `RUN.vantage#end`. Warnings are
+/// printed. \throws InputError
+LoadedMap loadMap(const GlobalOptions& global, const std::string& map);
+
+/// Worker threads that parallel work uses now.
+int threadsInUse();
+
+}  // namespace vantage::app

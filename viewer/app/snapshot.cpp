@@ -1,0 +1,73 @@
+#include "snapshots/snapshot.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "io/error.h"
+#include "viewer/app/command.h"
+#include "viewer/app/console.h"
+
+namespace vantage::app {
+namespace {
+
+struct SnapshotOptions {
+  std::string run, step = "all", size = "1280x800", output;
+  std::vector<std::string> recipes;
+};
+
+/// "WxH" in pixels.
+std::pair<int, int> parseSize(const std::string& text) {
+  int width = 0, height = 0, used = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used) != 2 ||
+      used != static_cast<int>(text.size()) || width < 64 || height < 64 || width > 16384 || height > 16384)
+    throw InputError("--size " + text, "not a picture size; give WIDTHxHEIGHT in pixels, each 64 .. 16384");
+  return {width, height};
+}
+
+std::optional<int> parseStep(const std::string& text) {
+  if (text == "all") return std::nullopt;
+  char* end = nullptr;
+  const long step = std::strtol(text.c_str(), &end, 10);
+  if (text.empty() || *end != '\0' || step < 1 || step > 1'000'000)
+    throw InputError("--step " + text, "not a step; give its number, 1 or more, or 'all'");
+  return static_cast<int>(step);
+}
+
+int snapshot(const GlobalOptions& global, const SnapshotOptions& options) {
+  SnapshotRequest request;
+  if (const auto step = parseStep(options.step)) request.step = *step;
+  request.recipes = options.recipes;
+  std::tie(request.width, request.height) = parseSize(options.size);
+  request.output = options.output;
+  Console console(global);
+  const auto files = takeSnapshots(options.run, request, console.control());
+  console.clear();
+  for (const auto& file : files) say(global, file.string());
+  return 0;
+}
+
+}  // namespace
+
+void addSnapshot(CLI::App& app, const GlobalOptions& global, Action& action) {
+  auto options = std::make_shared<SnapshotOptions>();
+  CLI::App* command = app.add_subcommand("snapshot", "Pictures of a recorded run as PNG, without a display");
+  command->add_option("run", options->run, "Run file")->required()->type_name("RUN");
+  command->add_option("--step", options->step, "Number of one step, or all")->type_name("N|all");
+  command
+      ->add_option("--recipe", options->recipes,
+                   "Which picture: scene, states, contours, segments, views; repeatable (default: all)")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  command->add_option("--size", options->size, "Pixels")->type_name("WxH");
+  command
+      ->add_option("-o,--output", options->output,
+                   "PNG file or folder; {run} {step} {view} in the name are filled in")
+      ->required()
+      ->type_name("FILE|DIR");
+  command->footer("Example: vantage snapshot tabletop.vantage --step 2 --recipe segments -o segments.png");
+  command->callback(
+      [&global, &action, options] { action = [&global, options] { return snapshot(global, *options); }; });
+}
+
+}  // namespace vantage::app

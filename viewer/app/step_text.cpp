@@ -1,0 +1,90 @@
+#include "viewer/app/step_text.h"
+
+#include <fmt/format.h>
+
+namespace vantage::app {
+namespace {
+
+struct StageSummary {
+  std::string count;
+  std::optional<double> seconds;
+};
+
+StageSummary summarise(const StepRecord& r) {
+  const Timings& t = r.timings;
+  switch (r.stage) {
+    case Stage::Sense:
+      return {fmt::format("{} frames", r.scan.size()), t.sense};
+    case Stage::Fuse:
+      return {fmt::format("{} bricks changed", r.changed_bricks->size()), t.fuse};
+    case Stage::Contours:
+      return {
+          fmt::format("{} contour voxels, {} points", r.contours->voxels.size(), r.contours->points.size()),
+          t.contours};
+    case Stage::Surface:
+      return {fmt::format("{} vertices", r.surface->points.size()), t.surface};
+    case Stage::Segmentation:
+      return {fmt::format("{} supervoxels, {} segments", r.labels->supervoxels, r.labels->count),
+              t.segmentation};
+    case Stage::Saliency:
+      return {fmt::format("{} segments", r.saliency->segments.size()), t.saliency};
+    case Stage::Generation:
+      return {fmt::format("{} positions", r.positions->size()), t.generation};
+    case Stage::Evaluation:
+      return {fmt::format("{} poses scored, {} rays", r.search->counts.poses_scored, r.search->counts.rays),
+              t.evaluation};
+    case Stage::Motion:
+      return {fmt::format("{:.2f} m", r.search->chosen->path.length_m), t.motion_planning};
+    case Stage::Realised:
+      return {fmt::format("{} voxels realised", r.realised_voxels.value_or(0)), {}};
+    case Stage::Done:
+      break;
+  }
+  return {"", {}};
+}
+
+std::string mapText(const MapMetrics& m) {
+  std::string text = fmt::format("{} unknown voxels in the workspace", m.unknown_voxels);
+  if (m.unknown_near_objects) text += fmt::format(", {} near objects", *m.unknown_near_objects);
+  if (m.coverage) text += fmt::format(", coverage {:.1f} %", *m.coverage * 100);
+  return text;
+}
+
+std::string choiceText(const StepRecord& r) {
+  const SearchCounts& n = r.search->counts;
+  if (!r.hasView())
+    return fmt::format("no view: {} poses scored, {} above the threshold, {} of them unreachable",
+                       n.poses_scored, n.poses_above_threshold, n.poses_unreachable);
+  const ChosenView& c = *r.search->chosen;
+  const SegmentSearch& search = r.search->segments[c.search];
+  std::string text;
+  if (search.segment >= 0)
+    text = fmt::format("segment {} (saliency {:.3f}) ", r.saliency->segments[search.segment].label,
+                       search.saliency);
+  const Eigen::Vector3d p = c.T_world_camera.translation();
+  text += fmt::format(
+      "view {} at ({:.2f}, {:.2f}, {:.2f}) m gains {:.0f} rays; {} of {} poses scored, {} unreachable "
+      "skipped",
+      c.id, p.x(), p.y(), p.z(), c.gain, n.poses_scored, n.poses_generated, n.poses_unreachable);
+  if (c.path.verdict != Reachability::Reachable)
+    text += fmt::format("; motion: {}", toString(c.path.verdict));
+  if (r.toward_object) text += *r.toward_object ? "; toward an object" : "; not toward an object";
+  return text;
+}
+
+}  // namespace
+
+std::string stageText(const StepRecord& record) {
+  const StageSummary s = summarise(record);
+  std::string text = fmt::format("step {} {}", record.step, toString(record.stage));
+  if (!s.count.empty()) text += ": " + s.count;
+  if (s.seconds) text += fmt::format(", {:.3f} s", *s.seconds);
+  return text;
+}
+
+std::string stepText(const StepRecord& record) {
+  if (record.closing) return fmt::format("end     {}", mapText(record.metrics));
+  return fmt::format("step {:<2} {}\n        {}", record.step, choiceText(record), mapText(record.metrics));
+}
+
+}  // namespace vantage::app
