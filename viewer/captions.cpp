@@ -136,9 +136,8 @@ std::string segmentFigures(const SceneFrame& frame) {
   const auto& searches = record.search->segments;
   const std::size_t shown = std::min<std::size_t>(searches.size(), 4);
   for (std::size_t i = 0; i < shown; ++i) {
-    const std::string poses = plural(searches[i].poses_generated, "pose");
-    text += (i ? ", " : "") + nameOf(record, searches[i]) + ", " + poses;
-    if (i + 1 < shown) text += ";";
+    if (i > 0) text += "; ";
+    text += nameOf(record, searches[i]) + " with " + plural(searches[i].poses_generated, "pose");
   }
   return text + (searches.size() > shown ? "; ..." : ".");
 }

@@ -83,12 +83,12 @@ double drawScale(Page& page, double x, double y, double width, const ColorScale&
   return y + height + 32.0 * unit;
 }
 
-double drawLegend(Page& page, const PageArea& area, std::span<const LayerContent* const> contents,
+double drawLegend(Page& page, const PageArea& area, std::span<const LayerNotes* const> contents,
                   double unit) {
   double y = area.y;
   const double text_x = area.x + 30.0 * unit;
   std::set<std::string> written;
-  for (const LayerContent* content : contents) {
+  for (const LayerNotes* content : contents) {
     for (const LegendEntry& entry : content->legend) {
       if (!written.insert(entry.text).second) continue;
       drawMark(page, area.x, y + 2.0 * unit, entry, unit);
@@ -96,10 +96,10 @@ double drawLegend(Page& page, const PageArea& area, std::span<const LayerContent
     }
   }
   y += 10.0 * unit;
-  for (const LayerContent* content : contents) {
+  for (const LayerNotes* content : contents) {
     if (content->scale) y = drawScale(page, area.x, y, area.width, *content->scale, unit) + 6.0 * unit;
   }
-  for (const LayerContent* content : contents) {
+  for (const LayerNotes* content : contents) {
     if (content->inset) y = drawInset(page, area.x, y, area.width, *content->inset, unit) + 6.0 * unit;
   }
   return y;

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "viewer/layers/layer.h"
+#include "viewer/layers/layer_notes.h"
 #include "viewer/page.h"
 
 namespace vantage {
@@ -14,8 +14,7 @@ struct PageArea {
 
 /// Writes the legend entries, colour scales and insets of layers one below the other. `unit` scales all sizes
 /// (1 = 15 px text). Returns the y below the last.
-double drawLegend(Page& page, const PageArea& area, std::span<const LayerContent* const> contents,
-                  double unit);
+double drawLegend(Page& page, const PageArea& area, std::span<const LayerNotes* const> contents, double unit);
 
 /// One colour scale with its title and five ticks; returns the y below it.
 double drawScale(Page& page, double x, double y, double width, const ColorScale& scale, double unit);

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "core/geometry/check.h"
+#include "viewer/layers/layer.h"
 #include "viewer/legend.h"
 #include "viewer/page.h"
 #include "viewer/vtk_messages.h"
@@ -52,15 +53,15 @@ void addLights(vtkRenderer& renderer) {
   renderer.AutomaticLightCreationOff();
   vtkNew<vtkLight> head;
   head->SetLightTypeToCameraLight();
-  head->SetPosition(0.35, 0.55, 1.0);
-  head->SetIntensity(0.80);
+  head->SetPosition(-0.15, 0.25, 1.0);
+  head->SetIntensity(0.72);
   renderer.AddLight(head);
   vtkNew<vtkLight> sky;
   sky->SetLightTypeToSceneLight();
   sky->SetPositional(false);
   sky->SetPosition(0.0, 0.0, 1.0);
   sky->SetFocalPoint(0.0, 0.0, 0.0);
-  sky->SetIntensity(0.30);
+  sky->SetIntensity(0.25);
   renderer.AddLight(sky);
 }
 
@@ -104,7 +105,10 @@ struct Scene::State {
 void Scene::State::placeCamera(const CameraView& camera, double width_to_height) const {
   const Box& workspace = frame->header.workspace;
   const Box box = workspace.isEmpty() ? Box(Eigen::Vector3d(-1, -1, 0), Eigen::Vector3d(1, 1, 1)) : workspace;
-  const Eye eye = fitEye(camera, box, width_to_height);
+  Box seen = box;
+  seen.min().y() -= camera.front_m;
+  seen.max().z() += camera.above_m;
+  const Eye eye = fitEye(camera, seen, width_to_height);
   vtkCamera* target = view->GetActiveCamera();
   target->SetPosition(eye.position.data());
   target->SetFocalPoint(eye.focus.data());
@@ -154,7 +158,7 @@ void Scene::show(const ViewSettings& settings, const Caption& caption, PageStyle
     writeCaption(*state_->page, caption, unit);
     const PageArea column{view_width + 6.0 * unit, kBand * unit + 8.0 * unit,
                           (kColumn - 6.0 - kMargin) * unit, view_height};
-    drawLegend(*state_->page, column, shownContents(), unit);
+    drawLegend(*state_->page, column, shownNotes(), unit);
   }
   view->SetViewport(0.0, 0.0, view_width / width, view_height / height);
   state_->placeCamera(settings.camera, view_width / view_height);
@@ -170,8 +174,8 @@ const LayerContent* Scene::content(Layer layer) const {
   return built ? &*built : nullptr;
 }
 
-std::vector<const LayerContent*> Scene::shownContents() const {
-  std::vector<const LayerContent*> contents;
+std::vector<const LayerNotes*> Scene::shownNotes() const {
+  std::vector<const LayerNotes*> contents;
   for (int i = 0; i < kLayerCount; ++i) {
     const Layer layer = static_cast<Layer>(i);
     if (state_->shown.has(layer) && content(layer)) contents.push_back(content(layer));

@@ -1,17 +1,19 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "viewer/layers/layer.h"
+#include "viewer/layers/layer_notes.h"
+#include "viewer/scene_frame.h"
 #include "viewer/view_settings.h"
 
 class vtkRenderer;
 
 namespace vantage {
+
+struct LayerContent;
 
 /// Words above a picture.
 struct Caption {
@@ -49,7 +51,7 @@ class Scene {
   /// What a layer adds, as built for the last show() that had it; null if it was not shown since.
   const LayerContent* content(Layer layer) const;
   /// Legend entries, scales and insets of the layers that were shown last, in drawing order.
-  std::vector<const LayerContent*> shownContents() const;
+  std::vector<const LayerNotes*> shownNotes() const;
 
  private:
   struct State;

@@ -76,7 +76,9 @@ struct CameraView {
   double azimuth_rad = -1.0297442586766543;   ///< of the eye from +x about z; -59 deg, the robot is at -y
   double elevation_rad = 0.6806784082777885;  ///< above the horizon; 39 deg
   double fov_rad = 0.4363323129985824;        ///< vertical aperture; 25 deg
-  double zoom = 1.0;                          ///< 1: the workspace fills the picture
+  double zoom = 1.0;                          ///< 1: what must be seen fills the picture
+  double front_m = 0.34;  ///< space before the workspace (-y) that must be seen too: the sensor moves there
+  double above_m = 0.0;   ///< and above it
   bool operator==(const CameraView&) const = default;
 };
 

@@ -149,7 +149,10 @@ vtkSmartPointer<vtkActor> tubeActor(const std::vector<Eigen::Vector3d>& line, do
   tube->SetNumberOfSides(16);
   tube->CappingOn();
   tube->Update();
-  return makeActor(tube->GetOutput(), color);
+  auto actor = makeActor(tube->GetOutput(), color);
+  actor->GetProperty()->SetAmbient(0.45);
+  actor->GetProperty()->SetDiffuse(0.65);
+  return actor;
 }
 
 vtkSmartPointer<vtkActor> ballActor(const Eigen::Vector3d& center, double radius_m, Rgb color) {
@@ -159,7 +162,10 @@ vtkSmartPointer<vtkActor> ballActor(const Eigen::Vector3d& center, double radius
   ball->SetThetaResolution(24);
   ball->SetPhiResolution(16);
   ball->Update();
-  return makeActor(ball->GetOutput(), color);
+  auto actor = makeActor(ball->GetOutput(), color);
+  actor->GetProperty()->SetAmbient(0.45);
+  actor->GetProperty()->SetDiffuse(0.65);
+  return actor;
 }
 
 vtkSmartPointer<vtkActor> faceActor(const FaceMesh& faces, Rgb color, double opacity) {
@@ -169,8 +175,9 @@ vtkSmartPointer<vtkActor> faceActor(const FaceMesh& faces, Rgb color, double opa
   auto actor = makeActor(data, color);
   actor->GetProperty()->SetInterpolationToFlat();
   actor->GetProperty()->SetOpacity(opacity);
-  actor->GetProperty()->SetAmbient(0.25);
-  actor->GetProperty()->SetDiffuse(0.80);
+  // Translucent faces keep their colour from all sides: they say "unknown", not which way they look.
+  actor->GetProperty()->SetAmbient(opacity < 1.0 ? 0.75 : 0.35);
+  actor->GetProperty()->SetDiffuse(opacity < 1.0 ? 0.30 : 0.75);
   return actor;
 }
 
@@ -200,8 +207,8 @@ vtkSmartPointer<vtkActor> triangleActor(const std::vector<Eigen::Vector3f>& poin
   auto actor = makeActor(data, color);
   if (normals.empty()) actor->GetProperty()->SetInterpolationToFlat();
   actor->GetProperty()->SetOpacity(opacity);
-  actor->GetProperty()->SetAmbient(0.22);
-  actor->GetProperty()->SetDiffuse(0.85);
+  actor->GetProperty()->SetAmbient(0.32);
+  actor->GetProperty()->SetDiffuse(0.80);
   return actor;
 }
 
@@ -219,7 +226,9 @@ vtkSmartPointer<vtkProp> labelProp(const Eigen::Vector3d& at, const std::string&
   text->SetVerticalJustificationToCentered();
   if (plate) {
     text->SetBackgroundColor(1.0, 1.0, 1.0);
-    text->SetBackgroundOpacity(0.85);
+    text->SetBackgroundOpacity(1.0);
+    text->SetFrame(true);
+    text->SetFrameColor(color.r, color.g, color.b);
   }
   return label;
 }

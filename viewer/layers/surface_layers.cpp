@@ -97,7 +97,8 @@ LayerContent segmentRanksLayer(const SceneFrame& frame, const LayerStyle& style)
     if (++rank > kRankLabels) break;
     if (search.segment < 0 || search.segment >= static_cast<int>(record.saliency->segments.size())) continue;
     const Segment& segment = record.saliency->segments[search.segment];
-    const Eigen::Vector3d at = segment.center_m + Eigen::Vector3d(0.0, 0.0, segment.radius_m + 0.03);
+    const double half_height = segment.axes.row(2).cwiseAbs().dot(segment.extent_m) / 2;
+    const Eigen::Vector3d at = segment.center_m + Eigen::Vector3d(0.0, 0.0, half_height + 0.04);
     content.props.push_back(
         labelProp(at, std::to_string(rank), style.label_px * 1.15, palette::kInk, true, true));
   }

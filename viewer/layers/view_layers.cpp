@@ -88,9 +88,8 @@ LayerContent rankedViewsLayer(const SceneFrame& frame, const LayerStyle& style) 
   if (!colored.pieces.empty()) {
     content.props.push_back(lineActor(colored, palette::kInk, 2.0 * style.line_scale));
     content.scale = ColorScale{ColorMap::Viridis, "gain of the view, rays", range.low, range.high, false};
-    content.legend.push_back({Mark::Line, colorAt(ColorMap::Viridis, 0.5), 1.0,
-                              "best " + std::to_string(std::min(shown, style.ranked_views)) + " of " +
-                                  std::to_string(shown) + " positions above the threshold"});
+    content.legend.push_back(
+        {Mark::Line, colorAt(ColorMap::Viridis, 0.5), 1.0, "best positions above the threshold"});
   }
   if (!barred.pieces.empty()) {
     content.props.push_back(lineActor(barred, palette::kUnreachable, 1.2 * style.line_scale));

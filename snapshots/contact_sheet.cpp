@@ -1,0 +1,99 @@
+#include "snapshots/contact_sheet.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "viewer/legend.h"
+#include "viewer/page.h"
+
+namespace vantage {
+namespace {
+
+// Pixels.
+constexpr int kTileWidth = 480, kTileHeight = 330, kCaption = 78, kGap = 14, kMargin = 20;
+constexpr int kHead = 96, kRowHead = 74, kLegend = 190;
+constexpr int kInsetWidth = 118;
+
+TextStyle textOf(int size_px, bool bold = false, Rgb color = palette::kInk) {
+  TextStyle style;
+  style.size_px = size_px;
+  style.bold = bold;
+  style.color = color;
+  return style;
+}
+
+}  // namespace
+
+ContactSheet::ContactSheet(std::string title, std::vector<Recipe> columns)
+    : title_(std::move(title)), columns_(std::move(columns)) {
+  if (columns_.empty()) throw std::invalid_argument("contact sheet: it needs at least one recipe");
+}
+
+void ContactSheet::addRow(Scene& scene, OffscreenRenderer& renderer, const SceneFrame& frame) {
+  Row row;
+  row.label = frame.record.closing ? "end" : std::to_string(frame.record.step);
+  for (const Recipe& recipe : columns_) {
+    Tile tile;
+    if (frame.record.closing && recipe.planning) {
+      row.tiles.push_back(tile);
+      continue;
+    }
+    scene.show(viewFor(recipe, frame), {}, PageStyle::ViewOnly, kTileWidth, kTileHeight);
+    tile.image = renderer.render(scene.renderers(), kTileWidth, kTileHeight);
+    tile.caption = recipe.figures(frame);
+    for (const LayerNotes* notes : scene.shownNotes()) {
+      if (notes->scale) tile.scales.push_back(*notes->scale);
+      if (notes->inset) tile.inset = notes->inset->image;
+      tile.legend.insert(tile.legend.end(), notes->legend.begin(), notes->legend.end());
+    }
+    row.tiles.push_back(std::move(tile));
+  }
+  rows_.push_back(std::move(row));
+}
+
+RgbImage ContactSheet::draw(OffscreenRenderer& renderer) const {
+  const int columns = static_cast<int>(columns_.size());
+  const int width = kMargin * 2 + kRowHead + columns * kTileWidth + (columns - 1) * kGap;
+  const int row_height = kTileHeight + kCaption;
+  const int height = kHead + rows() * row_height + kLegend + kMargin;
+  Page page(width, height);
+  page.text(kMargin, 18, title_, textOf(28, true));
+  for (int c = 0; c < columns; ++c) {
+    const double x = kMargin + kRowHead + c * (kTileWidth + kGap);
+    page.text(x, 64, columns_[c].title, textOf(19, true));
+    // The legend of a column holds what any of its tiles shows.
+    LayerNotes legend;
+    for (int r = 0; r < rows(); ++r) {
+      const Tile& tile = rows_[r].tiles[c];
+      legend.legend.insert(legend.legend.end(), tile.legend.begin(), tile.legend.end());
+      const double y = kHead + r * row_height;
+      if (tile.image.empty()) continue;
+      page.picture(x, y, kTileWidth, kTileHeight, tile.image);
+      page.frame(x, y, kTileWidth, kTileHeight, palette::kRule);
+      if (!tile.inset.empty()) {
+        const double inset_height = kInsetWidth * static_cast<double>(tile.inset.height) / tile.inset.width;
+        page.picture(x + kTileWidth - kInsetWidth - 8, y + 8, kInsetWidth, inset_height, tile.inset);
+        page.frame(x + kTileWidth - kInsetWidth - 8, y + 8, kInsetWidth, inset_height, palette::kFaintInk);
+      }
+      double scale_y = y + kTileHeight - 62;
+      for (const ColorScale& scale : tile.scales) {
+        drawScale(page, x + 10, scale_y, 190, scale, 0.85);
+        scale_y -= 60;
+      }
+      page.paragraph(x, y + kTileHeight + 6, kTileWidth, tile.caption, textOf(14));
+    }
+    const LayerNotes* contents[] = {&legend};
+    const double legend_y = kHead + rows() * row_height + 10.0;
+    drawLegend(page, {x, legend_y, static_cast<double>(kTileWidth), kLegend}, contents, 0.95);
+  }
+  for (int r = 0; r < rows(); ++r) {
+    const double y = kHead + r * row_height;
+    const bool number = rows_[r].label != "end";
+    page.text(kMargin, y, number ? "step" : "after", textOf(15, false, palette::kFaintInk));
+    page.text(kMargin, y + 19, number ? rows_[r].label : "all", textOf(number ? 38 : 24, true));
+  }
+  vtkRenderer* renderers[] = {page.renderer()};
+  return renderer.render(renderers, width, height);
+}
+
+}  // namespace vantage

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "snapshots/recipe.h"
+#include "viewer/layers/layer_notes.h"
+#include "viewer/offscreen_renderer.h"
+
+namespace vantage {
+
+/// One run on one page: a row a step, a column a recipe, captions under the tiles, legends below the columns.
+/// Tiles are drawn as the steps come by, so that only pictures are kept.
+class ContactSheet {
+ public:
+  /// \param title above all; \param columns non-empty.
+  ContactSheet(std::string title, std::vector<Recipe> columns);
+
+  /// Draws the row of a frame; `scene` must hold the frame already. Recipes whose products the frame lacks
+  /// stay blank.
+  void addRow(Scene& scene, OffscreenRenderer& renderer, const SceneFrame& frame);
+
+  int rows() const { return static_cast<int>(rows_.size()); }
+  /// Rows that fit on one page.
+  static constexpr int kMostRows = 16;
+
+  RgbImage draw(OffscreenRenderer& renderer) const;
+
+ private:
+  struct Tile {
+    RgbImage image;
+    RgbImage inset;
+    std::string caption;
+    std::vector<ColorScale> scales;
+    std::vector<LegendEntry> legend;
+  };
+  struct Row {
+    std::string label;
+    std::vector<Tile> tiles;
+  };
+
+  std::string title_;
+  std::vector<Recipe> columns_;
+  std::vector<Row> rows_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,83 @@
+#include "snapshots/recipe.h"
+
+#include <algorithm>
+
+#include "io/error.h"
+#include "io/suggest.h"
+#include "viewer/captions.h"
+
+namespace vantage {
+namespace {
+
+ViewSettings viewOf(LayerSet layers) {
+  ViewSettings view;
+  view.layers = layers;
+  view.layers.set(Layer::Workspace, true);
+  view.layers.set(Layer::Axes, true);
+  return view;
+}
+
+std::vector<Recipe> makeRecipes() {
+  std::vector<Recipe> all;
+  all.push_back({"scene", "Scene and sensor", "the true scene, the sensor and its last depth image",
+                 viewOf({Layer::Truth, Layer::Sensor, Layer::DepthImage}), scanFigures, false});
+  all.push_back({"states", "Voxel states", "what is occupied and what is still unknown",
+                 viewOf({Layer::Occupied, Layer::Unknown}), stateFigures, false});
+  all.push_back({"contours", "Contours", "contour voxels and contour points with their normals",
+                 viewOf({Layer::Surface, Layer::ContourVoxels, Layer::ContourPoints}), contourFigures, true});
+  all.push_back({"segments", "Saliency of the segments",
+                 "the surface coloured by the saliency of its segments",
+                 viewOf({Layer::Segments, Layer::SegmentRanks}), segmentFigures, true});
+  all.push_back({"views", "Ranked views and the next best view",
+                 "the best views, the chosen one and the path to it",
+                 viewOf({Layer::Surface, Layer::Unknown, Layer::RankedViews, Layer::ChosenView, Layer::Path}),
+                 viewFigures, true});
+  all.push_back({"candidates", "Candidate views", "the positions of all candidate views",
+                 viewOf({Layer::Surface, Layer::Candidates, Layer::ChosenView}), contourFigures, true});
+  all.push_back({"slice", "Slice through the voxel states",
+                 "states on the plane through the middle of the scene",
+                 viewOf({Layer::Slices, Layer::Surface}), stateFigures, false});
+  all.push_back({"overview", "What is known, and where to look next",
+                 "states, contours, segment and chosen view in one picture",
+                 viewOf({Layer::Segments, Layer::Unknown, Layer::ContourPoints, Layer::ChosenView,
+                         Layer::Path, Layer::Sensor}),
+                 viewFigures, true});
+  return all;
+}
+
+}  // namespace
+
+const std::vector<Recipe>& recipes() {
+  static const std::vector<Recipe> all = makeRecipes();
+  return all;
+}
+
+std::vector<std::string> recipeNames() {
+  std::vector<std::string> names;
+  for (const Recipe& recipe : recipes()) names.push_back(recipe.name);
+  return names;
+}
+
+std::vector<std::string> defaultRecipes() {
+  return {"scene", "states", "contours", "segments", "views"};
+}
+
+const Recipe& recipeNamed(const std::string& name) {
+  const auto found =
+      std::find_if(recipes().begin(), recipes().end(), [&](const Recipe& r) { return r.name == name; });
+  if (found != recipes().end()) return *found;
+  throw InputError("recipe '" + name + "'", "there is no such recipe" + suggestion(name, recipeNames()));
+}
+
+ViewSettings viewFor(const Recipe& recipe, const SceneFrame& frame) {
+  ViewSettings view = recipe.view;
+  if (view.layers.has(Layer::Truth) && (!frame.truth || frame.truth->empty())) {
+    view.layers.set(Layer::Truth, false);
+    view.layers.set(Layer::Surface, true);
+  }
+  const Box& workspace = frame.header.workspace;
+  if (!workspace.isEmpty()) view.style.slice_at_m = workspace.center()[view.style.slice_axis];
+  return view;
+}
+
+}  // namespace vantage

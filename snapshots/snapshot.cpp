@@ -1,0 +1,185 @@
+#include "snapshots/snapshot.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "core/gpu/egl_context.h"
+#include "io/error.h"
+#include "io/suggest.h"
+#include "snapshots/contact_sheet.h"
+#include "viewer/captions.h"
+
+namespace vantage {
+namespace {
+
+constexpr const char* kFolderPattern = "{run}-step{step}-{view}.png";
+constexpr const char* kSheetName = "{run}-sheet{view}.png";
+
+bool isPng(const std::string& output) {
+  return std::filesystem::path(output).extension() == ".png";
+}
+
+std::string stepText(int step) {
+  char text[16];
+  std::snprintf(text, sizeof(text), "%02d", step);
+  return text;
+}
+
+/// The steps to draw: those asked for, and the closing map.
+std::vector<int> stepsOf(const RunReader& reader, const SnapshotRequest& request,
+                         const std::filesystem::path& run) {
+  std::vector<int> steps = reader.steps();
+  if (reader.hasClosing()) steps.push_back(reader.closingStep());
+  if (!request.step) {
+    if (steps.empty())
+      throw InputError(run.string(), "the run has no finished step yet; explore further first");
+    return steps;
+  }
+  if (std::find(steps.begin(), steps.end(), *request.step) != steps.end()) return {*request.step};
+  std::string known =
+      steps.empty() ? "none" : std::to_string(steps.front()) + " .. " + std::to_string(steps.back());
+  throw InputError(run.string(),
+                   "there is no step " + std::to_string(*request.step) + "; recorded: " + known);
+}
+
+void checkRequest(const SnapshotRequest& request, std::size_t steps, std::size_t wanted) {
+  if (request.output.empty()) throw InputError("output", "no file or folder is named; give one");
+  if (request.width < 160 || request.width > kLargestPicture || request.height < 160 ||
+      request.height > kLargestPicture) {
+    throw InputError(
+        "size " + std::to_string(request.width) + "x" + std::to_string(request.height),
+        "a side is out of range; allowed: 160 .. " + std::to_string(kLargestPicture) + " pixels");
+  }
+  if (!isPng(request.output)) return;
+  const auto lacks = [&](const char* part) { return request.output.find(part) == std::string::npos; };
+  if (steps > 1 && lacks("{step}"))
+    throw InputError(request.output, "several steps would go into one file; add {step} or name a folder");
+  if (wanted > 1 && lacks("{view}"))
+    throw InputError(request.output, "several recipes would go into one file; add {view} or name a folder");
+}
+
+/// Pictures and sheets of a run, step by step.
+class SnapshotSession {
+ public:
+  SnapshotSession(const std::filesystem::path& run, const SnapshotRequest& request, const RunControl& control)
+      : run_(run), request_(request), control_(control), reader_(run) {
+    const std::vector<std::string> names = request.recipes.empty() ? defaultRecipes() : request.recipes;
+    for (const std::string& name : names) recipes_.push_back(recipeNamed(name));
+    steps_ = stepsOf(reader_, request, run);
+    checkRequest(request, steps_.size(), recipes_.size());
+    name_ = run.stem().string();
+    context_ = std::make_unique<EglContext>();
+    renderer_ = std::make_unique<OffscreenRenderer>(*context_);
+    volume_ = TsdfVolume(reader_.header().volume);
+    states_ = StateGrid(reader_.header().volume);
+  }
+
+  std::vector<std::filesystem::path> take() {
+    const std::uint64_t total = steps_.size() * recipes_.size();
+    for (const int step : steps_) {
+      control_.check();
+      drawStep(step, total);
+    }
+    if (sheet_ && sheet_->rows() > 0) finishSheet();
+    return written_;
+  }
+
+ private:
+  void drawStep(int step, std::uint64_t total) {
+    states_.update(volume_, reader_.advanceVolume(volume_, volume_step_, step));
+    volume_step_ = step;
+    const bool closing = reader_.hasClosing() && step == reader_.closingStep();
+    const StepRecord record = closing ? reader_.closing() : reader_.step(step);
+    const SceneFrame frame{reader_.header(), record, states_, &reader_.header().truth};
+    scene_.setFrame(frame);
+    for (const Recipe& recipe : recipes_) {
+      control_.check();
+      control_.report("pictures", done_++, total);
+      if (closing && recipe.planning) continue;
+      const RgbImage image = drawRecipe(scene_, *renderer_, recipe, frame, request_.width, request_.height);
+      written_.push_back(snapshotPath(request_.output, name_, step, recipe.name));
+      writePng(image, written_.back());
+    }
+    control_.report("pictures", done_, total);
+    if (request_.contact_sheet && !request_.step && !isPng(request_.output)) addToSheet(frame);
+  }
+
+  void addToSheet(const SceneFrame& frame) {
+    if (sheet_ && sheet_->rows() == ContactSheet::kMostRows) finishSheet();
+    if (!sheet_)
+      sheet_ =
+          std::make_unique<ContactSheet>(name_ + "  ·  " + reader_.header().planner + " planner", recipes_);
+    sheet_->addRow(scene_, *renderer_, frame);
+  }
+
+  void finishSheet() {
+    ++sheets_;
+    const std::string number = sheets_ > 1 ? "-" + std::to_string(sheets_) : "";
+    written_.push_back(
+        snapshotPath((std::filesystem::path(request_.output) / kSheetName).string(), name_, 0, number));
+    writePng(sheet_->draw(*renderer_), written_.back());
+    sheet_.reset();
+  }
+
+  std::filesystem::path run_;
+  SnapshotRequest request_;
+  RunControl control_;
+  RunReader reader_;
+  std::string name_;
+  std::vector<Recipe> recipes_;
+  std::vector<int> steps_;
+  std::unique_ptr<EglContext> context_;
+  std::unique_ptr<OffscreenRenderer> renderer_;
+  TsdfVolume volume_;
+  StateGrid states_;
+  int volume_step_ = 0;
+  Scene scene_;
+  std::unique_ptr<ContactSheet> sheet_;
+  int sheets_ = 0;
+  std::uint64_t done_ = 0;
+  std::vector<std::filesystem::path> written_;
+};
+
+}  // namespace
+
+std::filesystem::path snapshotPath(const std::string& output, const std::string& run, int step,
+                                   const std::string& recipe) {
+  const std::string pattern =
+      isPng(output) ? output : (std::filesystem::path(output) / kFolderPattern).string();
+  std::string path;
+  for (std::size_t at = 0; at < pattern.size();) {
+    const std::size_t end = pattern[at] == '{' ? pattern.find('}', at) : std::string::npos;
+    if (end == std::string::npos) {
+      path += pattern[at++];
+      continue;
+    }
+    const std::string name = pattern.substr(at + 1, end - at - 1);
+    if (name == "run") {
+      path += run;
+    } else if (name == "step") {
+      path += stepText(step);
+    } else if (name == "view") {
+      path += recipe;
+    } else {
+      const std::vector<std::string> known = {"run", "step", "view"};
+      throw InputError(output, "unknown placeholder '{" + name + "}'" + suggestion(name, known));
+    }
+    at = end + 1;
+  }
+  return path;
+}
+
+RgbImage drawRecipe(Scene& scene, OffscreenRenderer& renderer, const Recipe& recipe, const SceneFrame& frame,
+                    int width, int height) {
+  scene.show(viewFor(recipe, frame), {recipe.title, stepLine(frame), recipe.figures(frame)}, PageStyle::Full,
+             width, height);
+  return renderer.render(scene.renderers(), width, height);
+}
+
+std::vector<std::filesystem::path> takeSnapshots(const std::filesystem::path& run,
+                                                 const SnapshotRequest& request, const RunControl& control) {
+  return SnapshotSession(run, request, control).take();
+}
+
+}  // namespace vantage
