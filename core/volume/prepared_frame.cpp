@@ -89,6 +89,12 @@ struct PreparedFrame::Footprint {
   }
 };
 
+/// The four edges of a row of bricks as in Row.
+struct PreparedFrame::Edges {
+  float u[4], v[4], z[4];
+  float du, dv, dz;
+};
+
 PreparedFrame::PreparedFrame(const TsdfVolume& volume, const DepthImage& depth, const PinholeCamera& camera,
                              const Pose& T_world_camera, const FusionConfig& config)
     : camera_(camera), truncation_m_(config.truncation_m), voxel_m_(volume.geometry().voxel_size_m) {
@@ -110,6 +116,7 @@ PreparedFrame::PreparedFrame(const TsdfVolume& volume, const DepthImage& depth, 
   frame_.observations = static_cast<float>(config.observations_per_frame);
   frame_.increment = config.observations_per_frame;
   frame_.max_weight = config.max_weight;
+  frame_.row_pitch = volume.geometry().size.x();
 }
 
 void PreparedFrame::measureRanges(const DepthImage& depth) {
@@ -147,13 +154,13 @@ Row PreparedFrame::row(int y, int z) const {
   return row;
 }
 
-PreparedFrame::Footprint PreparedFrame::column(int x, const Eigen::Vector3d (&edges)[4]) const {
+PreparedFrame::Footprint PreparedFrame::column(int x, const Edges& edges) const {
   Footprint f = Footprint::none();
-  for (const Eigen::Vector3d& edge : edges) {
-    const Eigen::Vector3d p = edge + x * axes_.col(0);
-    const double inverse = 1.0 / std::max(p.z(), kTooNear_m);
-    f.add(static_cast<float>(camera_.fx * p.x() * inverse + camera_.cx + 0.5),
-          static_cast<float>(camera_.fy * p.y() * inverse + camera_.cy + 0.5), static_cast<float>(p.z()));
+  const auto at = static_cast<float>(x);
+  for (int n = 0; n < 4; ++n) {
+    const float z = edges.z[n] + at * edges.dz;
+    const float inverse = 1.0f / std::max(z, static_cast<float>(kTooNear_m));
+    f.add((edges.u[n] + at * edges.du) * inverse, (edges.v[n] + at * edges.dv) * inverse, z);
   }
   return f;
 }
@@ -183,9 +190,12 @@ void PreparedFrame::lookAt(int y0, int y1, int z0, int z1, int voxels_x, std::ve
   double near_y, far_y, near_z, far_z;
   alongAxis(1, y0, y1 - 1, near_y, far_y);
   alongAxis(2, z0, z1 - 1, near_z, far_z);
-  Eigen::Vector3d edges[4];
-  for (int n = 0; n < 4; ++n)
-    edges[n] = corner_ + (n & 1 ? y1 - 1 : y0) * axes_.col(1) + (n & 2 ? z1 - 1 : z0) * axes_.col(2);
+  Edges edges{};
+  for (int n = 0; n < 4; ++n) {
+    const Row edge = row(n & 1 ? y1 - 1 : y0, n & 2 ? z1 - 1 : z0);
+    edges.u[n] = edge.u0, edges.v[n] = edge.v0, edges.z[n] = edge.z0;
+    edges.du = edge.du, edges.dv = edge.dv, edges.dz = edge.dz;
+  }
   // Neighbouring bricks share a column of corners: each is judged with the first voxels of the next.
   Footprint left = column(0, edges);
   for (std::size_t b = 0; b < sights.size(); ++b) {

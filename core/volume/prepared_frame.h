@@ -53,8 +53,9 @@ class PreparedFrame {
 
  private:
   struct Footprint;
+  struct Edges;
   void measureRanges(const DepthImage& depth);
-  Footprint column(int x, const Eigen::Vector3d (&edges)[4]) const;
+  Footprint column(int x, const Edges& edges) const;
   Sight sight(const Footprint& f, double nearest_m, double farthest_m) const;
 
   PinholeCamera camera_;

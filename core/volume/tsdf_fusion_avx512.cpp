@@ -54,6 +54,7 @@ std::uint32_t projectRow(const Frame& frame, const Row& row, void* row_voxels, i
     lanes = _mm512_mask_cmp_ps_mask(lanes, u, width, _CMP_LT_OQ);
     lanes = _mm512_mask_cmp_ps_mask(lanes, v, height, _CMP_LT_OQ);
     if (!lanes) continue;
+    _mm_prefetch(reinterpret_cast<const char*>(voxels + x + frame.row_pitch), _MM_HINT_T0);
     const __m512i pixel = _mm512_add_epi32(
         _mm512_mullo_epi32(_mm512_cvttps_epi32(v), _mm512_set1_epi32(frame.width)), _mm512_cvttps_epi32(u));
     const __m512 measured = _mm512_mask_i32gather_ps(zero, lanes, pixel, frame.range_m, 4);

@@ -6,6 +6,7 @@
 
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace vantage::fusion {
@@ -24,6 +25,7 @@ struct Frame {
   float observations = 1;
   int increment = 1;  ///< the same as an integer
   int max_weight = 128;
+  std::ptrdiff_t row_pitch = 0;  ///< voxels from a row to the next, which is fetched ahead
 };
 
 /// One row along x: homogeneous pixel coordinates (+1/2, so that truncation finds the nearest pixel) are
