@@ -171,8 +171,18 @@ class Body {
   std::string path_;
 };
 
-void addVertex(const Element& element, Body& body, TriangleMesh& mesh, std::vector<double>& scratch) {
+/// Number of the normal's component, -1 for other properties.
+int normalAxis(std::string_view name) {
+  constexpr std::array<std::string_view, 6> names = {"nx", "ny", "nz", "normal_x", "normal_y", "normal_z"};
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? -1 : static_cast<int>((found - names.begin()) % 3);
+}
+
+void addVertex(const Element& element, Body& body, TriangleMesh& mesh, std::vector<double>& scratch,
+               std::vector<Eigen::Vector3f>* normals) {
   Eigen::Vector3f vertex = Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+  Eigen::Vector3f normal = vertex;
+  bool has_normal = false;
   for (const Property& property : element.properties) {
     if (property.list) {
       body.list(property, scratch);
@@ -181,9 +191,14 @@ void addVertex(const Element& element, Body& body, TriangleMesh& mesh, std::vect
     const double value = body.value(property.type);
     if (property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z')
       vertex[property.name[0] - 'x'] = static_cast<float>(value);
+    if (const int axis = normalAxis(property.name); axis >= 0) {
+      normal[axis] = static_cast<float>(value);
+      has_normal = true;
+    }
   }
   if (!vertex.allFinite()) body.fail("a vertex has a missing coordinate or one that is not finite");
   mesh.vertices.push_back(vertex);
+  if (normals && has_normal) normals->push_back(normal);
 }
 
 void addFace(const Element& element, Body& body, std::uint64_t vertices, TriangleMesh& mesh,
@@ -207,7 +222,8 @@ void addFace(const Element& element, Body& body, std::uint64_t vertices, Triangl
 
 }  // namespace
 
-TriangleMesh parsePly(std::string_view bytes, const std::string& path) {
+TriangleMesh parsePly(std::string_view bytes, const std::string& path,
+                      std::vector<Eigen::Vector3f>* normals) {
   mesh_text::Cursor cursor(bytes, path);
   const Header header = readHeader(cursor);
   std::uint64_t vertices = 0;
@@ -227,7 +243,7 @@ TriangleMesh parsePly(std::string_view bytes, const std::string& path) {
     for (std::uint64_t i = 0; i < element.count; ++i) {
       body.beginItem();
       if (element.name == "vertex")
-        addVertex(element, body, mesh, scratch);
+        addVertex(element, body, mesh, scratch, normals);
       else
         addFace(element, body, element.name == "face" ? vertices : 0, mesh, scratch);
     }
