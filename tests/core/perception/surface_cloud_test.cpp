@@ -129,6 +129,21 @@ TEST(ExtractSurface, RandomFieldsGiveClosedSurfacesThatUseEveryVertex) {
   }
 }
 
+TEST(ExtractSurface, TrianglesStayWithinTheirCellsAmongUnderobservedVoxels) {
+  std::mt19937 random(11);
+  TsdfVolume volume = emptyVolume(70, 20, 20);
+  for (TsdfVoxel& v : volume.voxels()) v = tsdf(random() % 2 ? 0.7 : -0.3, random() % 8 ? 9 : 4);
+  const SurfaceCloud cloud = extractSurface(volume, 5);
+  ASSERT_GT(cloud.triangles.size(), 1000u);
+  expectEveryVertexUsed(cloud);
+  for (const auto& t : cloud.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3f side = cloud.points[t[k]] - cloud.points[t[(k + 1) % 3]];
+      ASSERT_LE(side.cwiseAbs().maxCoeff(), 1.001 * kVoxel);
+      ASSERT_GT(side.norm(), 0.0f);
+    }
+}
+
 TEST(ExtractSurface, PlaneIsFlatAndFacesTheEmptySide) {
   const Eigen::Vector3d n = Eigen::Vector3d(0.3, -0.2, 0.9).normalized();
   const SurfaceCloud cloud = extractSurface(volumeOf(40, [&](const auto& p) { return n.dot(p) - 0.004; }), 5);
