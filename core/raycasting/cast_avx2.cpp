@@ -75,7 +75,7 @@ struct Avx2 {
 }  // namespace
 
 void castRowAvx2(const Bundle& bundle, const TileRow& row, Totals& totals) {
-  castRow<Avx2>(bundle, row, totals);
+  castRow<Avx2, 2>(bundle, row, totals);
 }
 
 }  // namespace vantage::casting

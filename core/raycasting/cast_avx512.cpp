@@ -60,7 +60,7 @@ struct Avx512 {
 }  // namespace
 
 void castRowAvx512(const Bundle& bundle, const TileRow& row, Totals& totals) {
-  castRow<Avx512>(bundle, row, totals);
+  castRow<Avx512, 2>(bundle, row, totals);
 }
 
 }  // namespace vantage::casting

@@ -255,22 +255,55 @@ void collect(const Bundle& b, Packet<L>& p, Totals& totals) {
   }
 }
 
+/// Packets of a row of tiles, one after the other.
 template <class L>
-void castRow(const Bundle& b, const TileRow& row, Totals& totals) {
-  constexpr unsigned kMask = (1u << L::kWidth) - 1;
-  for (int tile = 0; tile < row.tiles; ++tile)
-    for (int part = 0; part < 16; part += L::kWidth) {
-      const unsigned lanes = (row.lanes[tile] >> part) & kMask;
+class PacketSource {
+ public:
+  PacketSource(const Bundle& bundle, const TileRow& row) : bundle_(bundle), row_(row) {}
+
+  /// Starts the next packet that has rays; false if none is left.
+  bool next(Packet<L>& p) {
+    constexpr unsigned kMask = (1u << L::kWidth) - 1;
+    while (tile_ < row_.tiles) {
+      const int tile = tile_, part = part_;
+      part_ = (part_ + L::kWidth) % 16;
+      if (part_ == 0) ++tile_;
+      const unsigned lanes = (row_.lanes[tile] >> part) & kMask;
       if (!lanes) continue;
-      Packet<L> p;
-      start<L>(b, row.slope_x + 16 * tile + part, row.slope_y + part, lanes, p);
-      while (L::any(p.live)) {
+      start<L>(bundle_, row_.slope_x + 16 * tile + part, row_.slope_y + part, lanes, p);
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  const Bundle& bundle_;
+  const TileRow& row_;
+  int tile_ = 0, part_ = 0;
+};
+
+/// Casts a row with `kPackets` packets on their way at a time: while one waits for memory the others go on.
+template <class L, int kPackets>
+void castRow(const Bundle& b, const TileRow& row, Totals& totals) {
+  PacketSource<L> source(b, row);
+  Packet<L> packets[kPackets];
+  int flying = 0;
+  while (flying < kPackets && source.next(packets[flying])) ++flying;
+  while (flying > 0) {
+    for (int n = 0; n < flying; ++n) {
+      Packet<L>& p = packets[n];
+      if (L::any(p.live)) {
         const auto voxel = linear<L>(b, p);
         const auto radius = stop<L>(b, p, voxel, L::gather(b.grid.radius, voxel, p.live));
         jump<L>(b, p, radius);
+        continue;
       }
       collect<L>(b, p, totals);
+      if (source.next(p)) continue;
+      if (n != flying - 1) p = packets[flying - 1];
+      --flying;
     }
+  }
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ struct Single {
 }  // namespace
 
 void castRowPortable(const Bundle& bundle, const TileRow& row, Totals& totals) {
-  castRow<Single>(bundle, row, totals);
+  castRow<Single, 1>(bundle, row, totals);
 }
 
 }  // namespace vantage::casting
