@@ -69,12 +69,14 @@ Path farthestVisible(const Path& path, const SegmentFree& segment_free) {
 template <class SegmentFree>
 Path shortened(Path path, const SegmentFree& segment_free) {
   constexpr double kSpacing_m = 0.05, kWorthwhile_m = 1e-3;
-  for (int round = 0; round < 6; ++round) {
+  for (int round = 0; round < 3; ++round) {
     const double before = lengthOf(path);
-    // Alternate the direction: the greedy choice favours the end it starts from.
-    std::reverse(path.begin(), path.end());
-    path = farthestVisible(densified(path, kSpacing_m), segment_free);
-    if (round % 2 == 1 && lengthOf(path) > before - kWorthwhile_m) break;
+    // From both ends: the greedy choice favours the one it starts from.
+    for (int direction = 0; direction < 2; ++direction) {
+      std::reverse(path.begin(), path.end());
+      path = farthestVisible(densified(path, kSpacing_m), segment_free);
+    }
+    if (lengthOf(path) > before - kWorthwhile_m) break;
   }
   return path;
 }
