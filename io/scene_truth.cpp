@@ -97,7 +97,7 @@ struct SceneTruth::Data {
 
   bool clear(const Vector3d& p, double radius) const {
     return std::none_of(scene.solids.begin(), scene.solids.end(), [&](const Solid& solid) {
-      return solid.bounds().exteriorDistance(p) < radius && solid.signedDistance(p) < radius;
+      return solid.bounds().exteriorDistance(p) <= radius && solid.signedDistance(p) < radius;
     });
   }
   bool buried(const SurfacePoint& point) const {
