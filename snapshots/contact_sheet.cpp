@@ -10,8 +10,8 @@ namespace vantage {
 namespace {
 
 // Pixels.
-constexpr int kTileWidth = 480, kTileHeight = 330, kCaption = 78, kGap = 14, kMargin = 20;
-constexpr int kHead = 96, kRowHead = 74, kLegend = 190;
+constexpr int kTileWidth = 480, kTileHeight = 330, kCaption = 100, kGap = 14, kMargin = 20;
+constexpr int kHead = 96, kRowHead = 74, kLegend = 310;
 constexpr int kInsetWidth = 118;
 
 TextStyle textOf(int size_px, bool bold = false, Rgb color = palette::kInk) {

@@ -76,7 +76,7 @@ std::string stepLine(const SceneFrame& frame) {
   if (!planner.empty()) text += "  ·  " + planner + " planner";
   if (frame.record.closing) return text + "  ·  map after the last scan";
   text += "  ·  step " + std::to_string(frame.record.step);
-  if (frame.record.stage != Stage::Done)
+  if (frame.record.stage < Stage::Done)
     text += "  ·  after stage " + std::string(toString(frame.record.stage));
   return text;
 }

@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -199,7 +200,19 @@ std::vector<std::string> wrapText(const std::string& utf8, double width_px, cons
   std::vector<std::string> lines;
   std::istringstream words(utf8);
   std::string line;
+  std::vector<std::string> parts;
   for (std::string word; words >> word;) {
+    // A number with blanks between its thousands stays on one line.
+    const bool number =
+        !parts.empty() && std::isdigit(static_cast<unsigned char>(parts.back().back())) && word.size() >= 3 &&
+        std::all_of(word.begin(), word.begin() + 3, [](unsigned char c) { return std::isdigit(c); });
+    if (number) {
+      parts.back() += " " + word;
+    } else {
+      parts.push_back(word);
+    }
+  }
+  for (const std::string& word : parts) {
     const std::string longer = line.empty() ? word : line + " " + word;
     if (!line.empty() && textWidth(longer, style) > width_px) {
       lines.push_back(line);

@@ -77,8 +77,8 @@ struct CameraView {
   double elevation_rad = 0.6806784082777885;  ///< above the horizon; 39 deg
   double fov_rad = 0.4363323129985824;        ///< vertical aperture; 25 deg
   double zoom = 1.0;                          ///< 1: what must be seen fills the picture
-  double front_m = 0.34;  ///< space before the workspace (-y) that must be seen too: the sensor moves there
-  double above_m = 0.0;   ///< and above it
+  double front_m = 0.20;   ///< space before the workspace (-y) that must be seen too: the sensor moves there
+  double above_m = -0.20;  ///< the same above it; negative: its upper part, mostly empty, may be cut off
   bool operator==(const CameraView&) const = default;
 };
 

@@ -26,14 +26,15 @@ LayerContent axesLayer(const SceneFrame& frame, const LayerStyle& style) {
   const Box& box = frame.header.workspace;
   if (box.isEmpty()) return content;
   const double length = 0.12 * box.sizes().maxCoeff();
-  const Eigen::Vector3d origin = box.min();
+  const Eigen::Vector3d origin = box.min() + Eigen::Vector3d(0.0, 0.0, 0.02);  // clear of the floor
   const char* names[3] = {"x", "y", "z"};
   const Rgb colors[3] = {rgb(190, 50, 40), rgb(20, 130, 80), rgb(30, 80, 190)};
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Vector3d end = origin + length * Eigen::Vector3d::Unit(axis);
     content.props.push_back(tubeActor({origin, end}, 0.03 * length, colors[axis]));
-    content.props.push_back(labelProp(origin + 1.22 * length * Eigen::Vector3d::Unit(axis), names[axis],
-                                      style.label_px, colors[axis], true, false));
+    content.props.push_back(
+        labelProp(origin + 1.25 * length * Eigen::Vector3d::Unit(axis) + Eigen::Vector3d(0.0, 0.0, 0.03),
+                  names[axis], style.label_px, colors[axis], true, false));
   }
   return content;
 }

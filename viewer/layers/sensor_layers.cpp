@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "viewer/layers/layer.h"
 #include "viewer/layers/shapes.h"
@@ -32,17 +33,16 @@ vtkSmartPointer<vtkActor> bodyActor(const Pose& pose) {
   return faceActor(box, palette::kSensor, 1.0);
 }
 
-/// Range of the valid depths, rounded outward to decimetres; 0..1 if there are none.
+/// Range of the nearest three quarters of the valid depths, rounded outward to decimetres, so that a far wall
+/// doesn't take the whole scale; 0..1 if there are none.
 std::pair<double, double> depthRange(const DepthImage& depth) {
-  double low = 1e9, high = 0.0;
-  for (const float d : depth.depth_m) {
-    if (!DepthImage::valid(d)) continue;
-    low = std::min(low, static_cast<double>(d));
-    high = std::max(high, static_cast<double>(d));
-  }
-  if (high <= 0.0) return {0.0, 1.0};
-  return {std::floor(low * 10.0) / 10.0,
-          std::max(std::ceil(high * 10.0) / 10.0, std::floor(low * 10.0) / 10.0 + 0.1)};
+  std::vector<float> valid;
+  std::copy_if(depth.depth_m.begin(), depth.depth_m.end(), std::back_inserter(valid), DepthImage::valid);
+  if (valid.empty()) return {0.0, 1.0};
+  const double low = std::floor(*std::min_element(valid.begin(), valid.end()) * 10.0) / 10.0;
+  const auto middle = valid.begin() + static_cast<std::ptrdiff_t>(valid.size() * 3 / 4);
+  std::nth_element(valid.begin(), middle, valid.end());
+  return {low, std::max(std::ceil(*middle * 10.0) / 10.0, low + 0.1)};
 }
 
 /// Depth in colours; invalid pixels as a light grid, so that they can't be mistaken for a depth.
@@ -86,7 +86,7 @@ LayerContent depthImageLayer(const SceneFrame& frame, const LayerStyle&) {
   const DepthImage& depth = frame.record.depth->depth;
   const auto [low, high] = depthRange(depth);
   content.inset = Inset{"last depth image (striped: no return)", depthPicture(depth, low, high),
-                        ColorScale{ColorMap::Cividis, "depth, m", low, high, false}};
+                        ColorScale{ColorMap::Cividis, "depth, m", low, high, true}};
   return content;
 }
 

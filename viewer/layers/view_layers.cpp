@@ -19,11 +19,13 @@ struct GainRange {
   double at(double gain) const { return (gain - low) / std::max(1e-9, high - low); }
 };
 
-/// From the threshold to a round number above the best gain.
+/// From the threshold to a round number above the best gain that can be had.
 GainRange gainRange(const SceneFrame& frame, const std::vector<RankedPosition>& ranked) {
   GainRange range{frame.header.planner_config.gain.gain_threshold, 0.0};
   double best = range.low;
-  for (const RankedPosition& view : ranked) best = std::max(best, view.gain);
+  for (const RankedPosition& view : ranked) {
+    if (!view.unreachable()) best = std::max(best, view.gain);
+  }
   const double unit = std::pow(10.0, std::floor(std::log10(std::max(1.0, best))) - 1.0) * 5.0;
   range.high = std::max(range.low + 1.0, std::ceil(best / unit) * unit);
   return range;

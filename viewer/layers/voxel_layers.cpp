@@ -60,8 +60,22 @@ LayerContent occupiedLayer(const SceneFrame& frame, const LayerStyle&) {
 }
 
 LayerContent unknownLayer(const SceneFrame& frame, const LayerStyle& style) {
-  return faceLayer(frame, VoxelState::Unknown, FaceRule::TowardFree, frame.header.workspace,
-                   palette::kUnknown, style.unknown_opacity, "frontier of unknown space");
+  // Seen from its free side the frontier has the full opacity; seen from behind, where it would curtain the
+  // scene off, a third.
+  constexpr double kBehind = 0.3;
+  LayerContent content = faceLayer(frame, VoxelState::Unknown, FaceRule::TowardFree, frame.header.workspace,
+                                   palette::kUnknown, style.unknown_opacity, "frontier of unknown space");
+  if (content.props.empty()) return content;
+  vtkActor* front = vtkActor::SafeDownCast(content.props.front());
+  front->GetProperty()->BackfaceCullingOn();
+  vtkNew<vtkActor> behind;
+  behind->SetMapper(front->GetMapper());
+  behind->GetProperty()->DeepCopy(front->GetProperty());
+  behind->GetProperty()->BackfaceCullingOff();
+  behind->GetProperty()->FrontfaceCullingOn();
+  behind->GetProperty()->SetOpacity(kBehind * style.unknown_opacity);
+  content.props.push_back(behind);
+  return content;
 }
 
 LayerContent freeLayer(const SceneFrame& frame, const LayerStyle& style) {
