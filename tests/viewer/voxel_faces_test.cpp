@@ -55,9 +55,8 @@ TEST(VoxelFaces, NeighboursHideTheFaceBetweenThem) {
 }
 
 TEST(VoxelFaces, FrontierLiesBetweenUnknownAndFreeOnly) {
-  StateGrid grid = gridOf({8, 1, 1}, VoxelState::Unknown);
-  grid.set({3, 0, 0}, VoxelState::Free);
-  grid.set({6, 0, 0}, VoxelState::Occupied);
+  StateGrid grid = gridOf({8, 3, 3}, VoxelState::Occupied);
+  for (int i = 0; i < 8; ++i) grid.set({i, 1, 1}, i == 3 ? VoxelState::Free : VoxelState::Unknown);
   const FaceMesh mesh = extractFaces(grid, VoxelState::Unknown, FaceRule::TowardFree, everywhere());
   EXPECT_EQ(mesh.quads.size(), 2u);
 }
