@@ -12,7 +12,7 @@ namespace {
 // Pixels.
 constexpr int kTileWidth = 480, kTileHeight = 330, kCaption = 100, kGap = 14, kMargin = 20;
 constexpr int kHead = 96, kRowHead = 74, kLegend = 310;
-constexpr int kInsetWidth = 118;
+constexpr int kInsetWidth = 118, kScaleWidth = 170;
 
 TextStyle textOf(int size_px, bool bold = false, Rgb color = palette::kInk) {
   TextStyle style;
@@ -20,6 +20,20 @@ TextStyle textOf(int size_px, bool bold = false, Rgb color = palette::kInk) {
   style.bold = bold;
   style.color = color;
   return style;
+}
+
+/// Puts a picture, shrunk to `width`, into the upper right corner of another.
+void placeInset(RgbImage& image, const RgbImage& inset, int width) {
+  const int height = width * inset.height / std::max(1, inset.width);
+  const int left = image.width - width - 8, top = 8;
+  for (int y = -1; y <= height; ++y) {
+    for (int x = -1; x <= width; ++x) {
+      const bool border = x < 0 || y < 0 || x == width || y == height;
+      const auto color =
+          border ? palette::kFaintInk.bytes() : inset.at(x * inset.width / width, y * inset.height / height);
+      image.set(left + x, top + y, color);
+    }
+  }
 }
 
 }  // namespace
@@ -43,7 +57,7 @@ void ContactSheet::addRow(Scene& scene, OffscreenRenderer& renderer, const Scene
     tile.caption = recipe.figures(frame);
     for (const LayerNotes* notes : scene.shownNotes()) {
       if (notes->scale) tile.scales.push_back(*notes->scale);
-      if (notes->inset) tile.inset = notes->inset->image;
+      if (notes->inset) placeInset(tile.image, notes->inset->image, kInsetWidth);
       tile.legend.insert(tile.legend.end(), notes->legend.begin(), notes->legend.end());
     }
     row.tiles.push_back(std::move(tile));
@@ -70,17 +84,12 @@ RgbImage ContactSheet::draw(OffscreenRenderer& renderer) const {
       if (tile.image.empty()) continue;
       page.picture(x, y, kTileWidth, kTileHeight, tile.image);
       page.frame(x, y, kTileWidth, kTileHeight, palette::kRule);
-      if (!tile.inset.empty()) {
-        const double inset_height = kInsetWidth * static_cast<double>(tile.inset.height) / tile.inset.width;
-        page.picture(x + kTileWidth - kInsetWidth - 8, y + 8, kInsetWidth, inset_height, tile.inset);
-        page.frame(x + kTileWidth - kInsetWidth - 8, y + 8, kInsetWidth, inset_height, palette::kFaintInk);
+      const double text_width = tile.scales.empty() ? kTileWidth : kTileWidth - kScaleWidth - 20;
+      page.paragraph(x, y + kTileHeight + 6, text_width, tile.caption, textOf(13));
+      if (!tile.scales.empty()) {
+        drawScale(page, x + kTileWidth - kScaleWidth, y + kTileHeight + 6, kScaleWidth, tile.scales.front(),
+                  0.85);
       }
-      double scale_y = y + kTileHeight - 62;
-      for (const ColorScale& scale : tile.scales) {
-        drawScale(page, x + 10, scale_y, 190, scale, 0.85);
-        scale_y -= 60;
-      }
-      page.paragraph(x, y + kTileHeight + 6, kTileWidth, tile.caption, textOf(14));
     }
     const LayerNotes* contents[] = {&legend};
     const double legend_y = kHead + rows() * row_height + 10.0;

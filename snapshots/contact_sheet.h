@@ -29,7 +29,6 @@ class ContactSheet {
  private:
   struct Tile {
     RgbImage image;
-    RgbImage inset;
     std::string caption;
     std::vector<ColorScale> scales;
     std::vector<LegendEntry> legend;

@@ -68,16 +68,16 @@ double drawScale(Page& page, double x, double y, double width, const ColorScale&
   page.colorStrip(x, y, width, height, scale.map);
   page.frame(x, y, width, height, palette::kFaintInk);
   style.size_px = static_cast<int>(std::lround(12.5 * unit));
-  constexpr int kTicks = 5;
   const double span = scale.high - scale.low;
-  for (int i = 0; i < kTicks; ++i) {
-    const double at = x + width * i / (kTicks - 1);
+  const int ticks = span >= 1e4 ? 3 : 5;  // long numbers would touch
+  for (int i = 0; i < ticks; ++i) {
+    const double at = x + width * i / (ticks - 1);
     page.line(at, y + height, at, y + height + 4.0 * unit, palette::kFaintInk);
-    style.horizontal = i == 0            ? HorizontalAlign::Left
-                       : i == kTicks - 1 ? HorizontalAlign::Right
-                                         : HorizontalAlign::Center;
-    std::string text = tickText(scale.low + span * i / (kTicks - 1), span);
-    if (i == kTicks - 1 && scale.open_top) text = "≥ " + text;
+    style.horizontal = i == 0           ? HorizontalAlign::Left
+                       : i == ticks - 1 ? HorizontalAlign::Right
+                                        : HorizontalAlign::Center;
+    std::string text = tickText(scale.low + span * i / (ticks - 1), span);
+    if (i == ticks - 1 && scale.open_top) text = "≥ " + text;
     page.text(at, y + height + 6.0 * unit, text, style);
   }
   return y + height + 32.0 * unit;

@@ -124,10 +124,10 @@ void Page::rectangle(double x, double y, double w, double h, Rgb color, double o
 }
 
 void Page::frame(double x, double y, double w, double h, Rgb color, double width_px) {
-  rectangle(x, y, w, width_px, color);
-  rectangle(x, y + h - width_px, w, width_px, color);
-  rectangle(x, y, width_px, h, color);
-  rectangle(x + w - width_px, y, width_px, h, color);
+  rectangle(x - width_px, y - width_px, w + 2 * width_px, width_px, color);
+  rectangle(x - width_px, y + h, w + 2 * width_px, width_px, color);
+  rectangle(x - width_px, y, width_px, h, color);
+  rectangle(x + w, y, width_px, h, color);
 }
 
 void Page::line(double x0, double y0, double x1, double y1, Rgb color, double width_px) {

@@ -41,6 +41,7 @@ class Page {
   /// Breaks at spaces to fit `width_px`; returns the y below the last line.
   double paragraph(double x, double y, double width_px, const std::string& utf8, const TextStyle& style);
   void rectangle(double x, double y, double w, double h, Rgb color, double opacity = 1.0);
+  /// Around the given rectangle. Marks must not overlap: what lies above is not defined.
   void frame(double x, double y, double w, double h, Rgb color, double width_px = 1.0);
   void line(double x0, double y0, double x1, double y1, Rgb color, double width_px = 1.0);
   void disc(double x, double y, double radius, Rgb color);
