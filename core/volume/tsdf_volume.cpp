@@ -9,8 +9,8 @@
 namespace vantage {
 
 BrickLayout::BrickLayout(const Eigen::Vector3i& grid_size) : grid(grid_size) {
-  count = {(grid.x() + kBrickX - 1) / kBrickX, (grid.y() + kBrickY - 1) / kBrickY,
-           (grid.z() + kBrickZ - 1) / kBrickZ};
+  const auto bricksFor = [](int voxels, int brick) { return voxels / brick + (voxels % brick != 0); };
+  count = {bricksFor(grid.x(), kBrickX), bricksFor(grid.y(), kBrickY), bricksFor(grid.z(), kBrickZ)};
 }
 
 BrickRange BrickLayout::range(std::uint32_t brick) const {
