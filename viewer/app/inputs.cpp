@@ -127,7 +127,7 @@ LoadedMap loadRunMap(const GlobalOptions& global, const RunMap& map) {
 ExplorationInput openExplorationInput(const GlobalOptions& global, const std::string& name,
                                       const std::string& planner, std::optional<int> steps) {
   GlobalOptions options = global;  // --planner and --steps are short for settings and beat them
-  if (!planner.empty()) options.assignments.push_back("exploration.planner=" + planner);
+  if (!planner.empty()) options.assignments.push_back(fmt::format("exploration.planner={}", planner));
   if (steps) options.assignments.push_back(fmt::format("exploration.steps={}", *steps));
   return std::filesystem::is_directory(name) ? openReplay(options, name) : openScene(options, name);
 }

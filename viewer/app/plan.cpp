@@ -52,7 +52,7 @@ int plan(const GlobalOptions& global, const PlanOptions& options) {
   LoadedMap map = loadMap(global, options.map);
   Settings& settings = map.settings;
   if (!options.planner.empty())
-    applyAssignment(settings, "exploration.planner=" + options.planner, "--planner");
+    applyAssignment(settings, fmt::format("exploration.planner={}", options.planner), "--planner");
   settings.validate();
   const StateGrid states = makeStateGrid(map.volume);
   const CollisionGrid collision(states, settings.free_flyer.cell_m);

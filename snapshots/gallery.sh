@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# Remakes the pictures of README.md with the program itself. Usage: bash snapshots/gallery.sh [VANTAGE]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+vantage=${1:-build/bin/vantage}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+"$vantage" explore tabletop --steps 1 -o "$work/tabletop.vantage" --quiet
+mkdir -p snapshots/gallery
+for recipe in segments views; do
+  "$vantage" snapshot "$work/tabletop.vantage" --step 1 --recipe "$recipe" -o "snapshots/gallery/$recipe.png" --quiet
+done
