@@ -154,7 +154,7 @@ std::vector<Field> explorationFields() {
                    AT(exploration.planner.segment_by_segment)),
       integer("exploration.steps", "next best views per run (section 10)", 0, 10000, AT(exploration.steps)),
       integer("exploration.seed", "of noise and path planning", 0, 9007199254740992.0, AT(exploration.seed)),
-      flag("exploration.enforce_reachability", "false: reachability is only reported (recorded data)",
+      flag("exploration.enforce_reachability", "false: obstacles and paths are only reported (recorded data)",
            AT(exploration.enforce_reachability)),
       integer("scan.initial_frames", "frames of the initial scan (D-B28)", 1, 10000,
               AT(exploration.scan.initial_frames)),

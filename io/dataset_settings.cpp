@@ -16,6 +16,7 @@ constexpr double kCell_m = 0.05;     // cells in which frames are counted
 constexpr double kSeenShare = 0.25;  // a cell matters if this share of the frames saw it
 constexpr double kTail = 0.02;       // of the points, left out at both ends of each axis
 constexpr double kMargin_m = 0.05;   // of the volume around the workspace
+constexpr double kReach_m = 0.15;    // of the volume around the recorded cameras
 constexpr double kMostVoxels = 40e6;
 
 using CellKey = std::tuple<int, int, int>;
@@ -114,10 +115,25 @@ Box workspaceOf(const Dataset& dataset, const Measured& measured) {
   return rounded(box);
 }
 
+/// Where the device has been.
+Box cameraBox(const Dataset& dataset) {
+  Box box;
+  for (const DatasetFrame& frame : dataset.frames) box.extend(frame.T_world_camera.translation());
+  return box;
+}
+
+/// What has to be mapped: the workspace, and the cameras, since a view outside the map cannot be judged.
+Box mappedBox(const Box& workspace, const Box& cameras) {
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(kMargin_m),
+                        reach = Eigen::Vector3d::Constant(kReach_m);
+  return Box(workspace.min() - margin, workspace.max() + margin)
+      .merged(Box(cameras.min() - reach, cameras.max() + reach));
+}
+
 /// Voxels of the default size, or larger ones if there would be too many.
-GridGeometry volumeAround(const Box& workspace, double voxel_size_m) {
-  const Eigen::Vector3d low = workspace.min().array() - kMargin_m;
-  const Eigen::Vector3d extent = workspace.sizes().array() + 2 * kMargin_m;
+GridGeometry volumeOf(const Box& box, double voxel_size_m) {
+  const Eigen::Vector3d low = box.min();
+  const Eigen::Vector3d extent = box.sizes();
   GridGeometry grid;
   grid.voxel_size_m = std::max(voxel_size_m, std::cbrt(extent.prod() / kMostVoxels));
   for (;; grid.voxel_size_m *= 1.02) {
@@ -163,7 +179,8 @@ Settings settingsForDataset(const Dataset& dataset) {
   settings.dataset_orientation = orientationOf(dataset.T_world_dataset);
   ExplorationConfig& exploration = settings.exploration;
   exploration.workspace = workspaceOf(dataset, measured);
-  exploration.volume = volumeAround(exploration.workspace, exploration.volume.voxel_size_m);
+  const Box cameras = cameraBox(dataset);
+  exploration.volume = volumeOf(mappedBox(exploration.workspace, cameras), exploration.volume.voxel_size_m);
   exploration.fusion.observations_per_frame = dataset.observations_per_frame;
   exploration.enforce_reachability = false;
   if (!measured.depth_m.empty())
@@ -172,7 +189,7 @@ Settings settingsForDataset(const Dataset& dataset) {
   scaleWithVoxels(settings);
   setScan(settings, dataset);
   settings.free_flyer.reach_m = 0.0;
-  settings.free_flyer.min_height_m = exploration.workspace.min().z();
+  settings.free_flyer.min_height_m = cameras.min().z() - kReach_m;
   setOrigins(settings);
   return settings;
 }

@@ -136,7 +136,8 @@ void Explorer::State::plan(StepRecord& record, const RunControl& control) {
   const ReachPose reach = [&](const Pose& pose) {
     MotionPlan plan =
         robot.plan(pose, (config.seed << 32) + static_cast<std::uint64_t>(record.step) * 1000003 + tried++);
-    if (config.enforce_reachability) return plan;
+    // Where the sensor cannot be at all no view is judged; whether something is in its way is only reported.
+    if (config.enforce_reachability || plan.verdict == Reachability::OutOfReach) return plan;
     reported = plan;
     plan.verdict = Reachability::Reachable;
     return plan;

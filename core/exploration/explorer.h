@@ -33,7 +33,7 @@ struct ExplorationConfig {
   GridGeometry volume = {{-1.5, -1.0, -0.05}, 3.0 / 512.0, {512, 341, 200}};
   Box workspace = {Eigen::Vector3d(-1.0, -0.66, 0.0), Eigen::Vector3d(1.0, 0.66, 1.0)};
   int steps = 5;                     ///< NBVs
-  bool enforce_reachability = true;  ///< false: the verdict is only reported (replayed data)
+  bool enforce_reachability = true;  ///< false: obstacles and paths are only reported (replayed data)
   std::uint64_t seed = 1;
   void validate() const;
 };
