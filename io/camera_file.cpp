@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -153,14 +153,13 @@ PinholeCamera readCamera(const std::filesystem::path& path, const PinholeCamera&
 
 void writeCamera(const std::filesystem::path& path, const PinholeCamera& camera) {
   const auto n = shortestNumber;
-  std::ofstream file(path, std::ios::binary);
+  std::ostringstream file;
   file << "image_width: " << camera.width << "\nimage_height: " << camera.height
        << "\ncamera_matrix:\n  rows: 3\n  cols: 3\n  data: [" << n(camera.fx) << ", 0, " << n(camera.cx)
        << ", 0, " << n(camera.fy) << ", " << n(camera.cy) << ", 0, 0, 1]\ndistortion_model: plumb_bob\n"
        << "distortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [0, 0, 0, 0, 0]\nmin_range_m: "
        << n(camera.min_range_m) << "\nmax_range_m: " << n(camera.max_range_m) << "\n";
-  file.close();
-  if (!file) throw InputError(path.string(), "cannot be written; check folder and permissions");
+  saveFile(path, file.str());
 }
 
 }  // namespace vantage

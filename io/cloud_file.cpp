@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
 #include "io/cloud_pcd.h"
@@ -59,13 +58,6 @@ void append(std::string& bytes, const T& value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
 }
 
-void save(const std::string& path, const std::string& bytes) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) throw std::runtime_error(path + ": cannot be written; check folder, permissions and free space");
-}
-
 void appendPoint(std::string& bytes, const SurfaceCloud& cloud, std::size_t i) {
   for (int a = 0; a < 3; ++a) append(bytes, cloud.points[i][a]);
   for (int a = 0; a < 3; ++a) append(bytes, cloud.normals[i][a]);
@@ -92,7 +84,7 @@ void writePcd(const std::string& path, const SurfaceCloud& cloud, const std::vec
     appendPoint(bytes, cloud, i);
     if (labels) append(bytes, (*labels)[i]);
   }
-  save(path, bytes);
+  saveFile(path, bytes);
 }
 
 }  // namespace
@@ -129,7 +121,7 @@ void writeMesh(const std::string& path, const SurfaceCloud& cloud) {
     append(bytes, std::uint8_t{3});
     for (const std::uint32_t index : triangle) append(bytes, static_cast<std::int32_t>(index));
   }
-  save(path, bytes);
+  saveFile(path, bytes);
 }
 
 }  // namespace vantage

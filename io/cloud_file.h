@@ -22,11 +22,12 @@ std::vector<Eigen::Vector3f> estimateNormals(const std::vector<Eigen::Vector3f>&
                                              const Eigen::Vector3f& sensor_origin, int neighbours = 30);
 
 /// Writes points with normals, `.pcd` (binary) or `.ply` (then with the triangles).
-/// \throws std::runtime_error naming the file if it cannot be written, InputError for another ending.
+/// \throws InputError if it cannot be created or has another ending, std::runtime_error if it cannot be
+/// written in full.
 void writeCloud(const std::string& path, const SurfaceCloud& cloud);
 
 /// Writes points, normals and one `label` (uint32, 0 = no segment) a point as binary PCD.
-/// \throws std::runtime_error if it cannot be written, std::invalid_argument if the numbers of points and
+/// \throws as writeCloud(), std::invalid_argument if the numbers of points and
 /// labels differ.
 void writeLabelledCloud(const std::string& path, const SurfaceCloud& cloud,
                         const std::vector<std::uint32_t>& labels);

@@ -10,7 +10,7 @@
 
 namespace vantage {
 
-/// Reads the keys of one TOML table; every error names source and line. Internal to the scene reader.
+/// Reads the keys of one TOML table; every error names source and line. For readers of TOML files.
 class SceneTable {
  public:
   /// \param what names the table in messages, e.g. "solid 3 (box)".
@@ -30,6 +30,8 @@ class SceneTable {
   /// Array of at most 10000 arrays of exactly `count` finite numbers.
   std::vector<std::vector<double>> points(const std::string& key, std::size_t count);
 
+  /// Keys that are read elsewhere.
+  void accept(const std::vector<std::string>& keys) { read_.insert(keys.begin(), keys.end()); }
   /// Refuses keys that were not read.
   void finish() const;
 

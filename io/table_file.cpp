@@ -2,7 +2,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <iostream>
 #include <iterator>
 #include <limits>
@@ -57,11 +56,7 @@ class Table {
       if (!std::cout) throw std::runtime_error("standard output: cannot be written");
       return;
     }
-    std::ofstream file(path, std::ios::binary);
-    file << text_;
-    file.close();
-    if (!file)
-      throw std::runtime_error(path + ": cannot be written; check folder, permissions and free space");
+    saveFile(path, text_);
   }
 
  private:

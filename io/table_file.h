@@ -14,7 +14,8 @@ namespace vantage {
 
 /// Tables are CSV with a header row, commas, `.` decimals, metres and unit quaternions of T_world_camera;
 /// numbers are written so that they read back exactly. A path of "-" is standard output or input. Writers
-/// throw std::runtime_error naming the file if it cannot be written, readers InputError `FILE:LINE: ...`.
+/// throw InputError if a file cannot be created and std::runtime_error if it cannot be written in full,
+/// readers InputError `FILE:LINE: ...`.
 
 /// `i,j,k,x_m,y_m,z_m,nx,ny,nz,group`
 void writeContourVoxels(const std::string& path, const GridGeometry& geometry,

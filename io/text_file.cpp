@@ -1,9 +1,12 @@
 #include "io/text_file.h"
 
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <fstream>
+#include <stdexcept>
 
 namespace vantage {
 
@@ -23,6 +26,24 @@ std::string readTextFile(const std::filesystem::path& path, std::uintmax_t limit
   }
   if (file.bad()) throw InputError(path.string(), "cannot be read to its end");
   return text;
+}
+
+void requireCreatable(const std::filesystem::path& path) {
+  const bool existed = std::filesystem::exists(path);
+  errno = 0;
+  if (!std::ofstream(path, std::ios::binary | std::ios::app))
+    throw InputError(path.string(),
+                     std::string("cannot be created (") + std::strerror(errno) + "); choose another place");
+  std::error_code ignored;
+  if (!existed) std::filesystem::remove(path, ignored);
+}
+
+void saveFile(const std::filesystem::path& path, std::string_view bytes) {
+  requireCreatable(path);
+  std::ofstream file(path, std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) throw std::runtime_error(path.string() + ": cannot be written in full; check the free space");
 }
 
 std::string atLine(const std::filesystem::path& path, int line) {

@@ -15,6 +15,14 @@ namespace vantage {
 /// `limit` bytes.
 std::string readTextFile(const std::filesystem::path& path, std::uintmax_t limit = 64u << 20);
 
+/// Refuses a path at which no file can be created, before work is spent on its content. An existing file
+/// keeps its content. \throws InputError naming the file and the system's reason.
+void requireCreatable(const std::filesystem::path& path);
+
+/// Creates or replaces a file. \throws InputError if it cannot be created, std::runtime_error naming it if it
+/// cannot be written in full, e.g. on a full disk.
+void saveFile(const std::filesystem::path& path, std::string_view bytes);
+
 /// "FILE:LINE" for messages.
 std::string atLine(const std::filesystem::path& path, int line);
 

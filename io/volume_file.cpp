@@ -27,6 +27,8 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "io/text_file.h"
+
 namespace vantage {
 namespace {
 
@@ -260,6 +262,7 @@ TsdfVolume readVolume(const fs::path& path, std::vector<std::string>& warnings) 
 }
 
 void writeVolume(const fs::path& path, const TsdfVolume& volume) {
+  requireCreatable(path);
   const GridGeometry& geometry = volume.geometry();
   if (volume.voxels().empty()) throw std::invalid_argument("writeVolume: the volume is empty");
   vtkNew<vtkImageData> image;
@@ -289,7 +292,7 @@ void writeVolume(const fs::path& path, const TsdfVolume& volume) {
   writer->SetCompressorTypeToZLib();
   writer->SetCompressionLevel(1);
   if (writer->Write() != 1 || !quiet.messages().silent())
-    throw InputError(path.string(), "cannot be written: " + quiet.messages().firstLine());
+    throw std::runtime_error(path.string() + ": cannot be written in full: " + quiet.messages().firstLine());
 }
 
 }  // namespace vantage

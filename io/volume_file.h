@@ -19,7 +19,8 @@ TsdfVolume readVolume(const std::filesystem::path& path, std::vector<std::string
 
 /// Writes point data arrays `tsdf` (float32) and `weight` (uint16), appended and zlib-compressed;
 /// readVolume() gives back an equal volume.
-/// \throws InputError if the file cannot be written, std::invalid_argument for an empty volume.
+/// \throws InputError if the file cannot be created, std::runtime_error if it cannot be written in full,
+/// std::invalid_argument for an empty volume.
 void writeVolume(const std::filesystem::path& path, const TsdfVolume& volume);
 
 }  // namespace vantage

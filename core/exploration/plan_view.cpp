@@ -43,9 +43,6 @@ void planView(StepRecord& record, const PlanViewInput& input, const ReachPose& r
     record.saliency =
         timed(t.saliency, [&] { return computeSaliency(*record.surface, *record.labels, config.saliency); });
     finish(Stage::Saliency);
-  } else {
-    record.labels = std::make_shared<const Labels>();
-    record.saliency = std::make_shared<const Saliency>();
   }
 
   record.positions =
@@ -55,13 +52,14 @@ void planView(StepRecord& record, const PlanViewInput& input, const ReachPose& r
                : std::vector<std::uint32_t>());
   finish(Stage::Generation);
 
+  const Saliency no_saliency;
   const ViewSearchInput search_input{.states = input.states,
                                      .camera = input.camera,
                                      .workspace = input.workspace,
                                      .points = record.contours->points,
                                      .positions = *record.positions,
                                      .point_labels = *record.point_labels,
-                                     .saliency = *record.saliency,
+                                     .saliency = segments ? *record.saliency : no_saliency,
                                      .executed = input.executed,
                                      .disappointing = input.disappointing};
   record.search = std::make_shared<const ViewSearch>(searchView(search_input, config, reach, control));

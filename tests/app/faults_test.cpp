@@ -197,7 +197,7 @@ TEST(Faults, BrokenCsv) {
   expectRefused(gain("id,x_m,y_m\n0,0,0\n"), {"views.csv:1", "z_m"});
   expectRefused(gain(header + "0,0,0,zero,0,0,0,1\n"), {"views.csv:2", "zero"});
   expectRefused(gain(header + "0,0,0,0,0,0,0,1\n1,0,0,0,0,0\n"), {"views.csv:3"});
-  expectRefused(gain(header + "0,0,0,0,0,0,0,1.1\n"), {"views.csv:2", "unit"});
+  expectRefused(gain(header + "0,0,0,0,0,0,0,1.1\n"), {"views.csv:2", "length 1.1"});
   expectRefused(vantage({"gain", out / "map.vti", out / "none.csv", "-o", out / "gains.csv"}), {"none.csv"});
 }
 
@@ -231,10 +231,10 @@ TEST(Faults, DepthWithoutOneValidPixelIsNoCrash) {
 TEST(Faults, AVolumeThatDoesNotFitInMemoryIsRefused) {
   const TemporaryFolder folder;
   const ProcessResult result =
-      vantage({"explore", "box", "-o", folder / "x.vantage", "--set", "volume.size=[100000,100000,100000]"});
+      vantage({"explore", "box", "-o", folder / "x.vantage", "--set", "volume.size=[8000,8000,8000]"});
   EXPECT_TRUE(result.code == 1 || result.code == 2) << result.code;
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-  EXPECT_NE(result.err.find("100000"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("8000"), std::string::npos) << result.err;
 }
 
 TEST(Faults, AFullDiskKeepsWhatWasRecorded) {
@@ -255,7 +255,12 @@ TEST(Faults, AFullDiskKeepsWhatWasRecorded) {
 
 TEST(Faults, UnwritableOutputsAreNamed) {
   const TinyDataset data;
-  expectRefused(fuse(data, "/nonexistent/map.vti"), {"/nonexistent/map.vti"}, 1);
+  expectRefused(fuse(data, "/nonexistent/map.vti"), {"/nonexistent/map.vti"});
+  const TemporaryFolder folder;
+  ASSERT_EQ(fuse(data, folder / "map.vti").code, 0);
+  expectRefused(vantage({"contours", folder / "map.vti", "-o", "/nonexistent/v.csv"}),
+                {"/nonexistent/v.csv"});
+  expectRefused(vantage({"contours", folder / "map.vti", "-o", "/dev/full"}), {"/dev/full"}, 1);
   expectRefused(vantage({"explore", "box", "-o", "/nonexistent/x.vantage"}), {"/nonexistent/x.vantage"});
 }
 

@@ -124,7 +124,7 @@ TEST_F(Stages, GainAtFullResolutionAgreesWithThePlannersGain) {
   const auto gains = table({"gain", map_, *folder_ / "view.csv", "-o", "-", "--sphere", sphere},
                            "id,unknown,occupied,rays,visited,reject");
   ASSERT_EQ(gains.size(), 1u);
-  EXPECT_EQ(gains[0][3], "217088");
+  EXPECT_EQ(gains[0][3], "54272");  // 256 x 212 pixels in this scene
   EXPECT_NEAR(std::stod(gains[0][1]), step["gain"].get<double>(), 0.05 * step["gain"].get<double>());
   const auto distinct =
       table({"gain", map_, *folder_ / "view.csv", "-o", "-", "--sphere", sphere, "--count", "voxels"},

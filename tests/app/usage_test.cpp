@@ -47,8 +47,8 @@ TEST(Usage, CommandsThatDoNotExistYetAreUnknown) {
 }
 
 TEST(Usage, UnknownKeysSuggestTheNearest) {
-  expectRefused(vantage({"config", "--set", "saliency.isolation_m=0.01"}),
-                {"saliency.isolation_m", "did you mean", "saliency.isolation_distance_m"});
+  expectRefused(vantage({"config", "--set", "saliency.isolation_dist_m=0.01"}),
+                {"saliency.isolation_dist_m", "did you mean", "saliency.isolation_distance_m"});
 }
 
 TEST(Usage, ValuesOutOfRangeNameTheRange) {

@@ -6,10 +6,9 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <chrono>
 #include <csignal>
-#include <ctime>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -20,6 +19,9 @@ using Clock = std::chrono::steady_clock;
 
 bool g_log_json = false;  // set once by setUpLog(), before any work starts
 
+/// Ends the program at once, as a shell expects of one that was interrupted.
+constexpr int kInterruptedCode = 130;
+
 /// SIGINT and SIGTERM as a set.
 sigset_t stopSignals() {
   sigset_t set;
@@ -29,7 +31,30 @@ sigset_t stopSignals() {
   return set;
 }
 
+/// Who is asked to stop by a signal: the console that exists now, if any.
+struct StopTarget {
+  std::mutex mutex;
+  std::stop_source* stop = nullptr;
+};
+StopTarget& stopTarget() {
+  static StopTarget target;
+  return target;
+}
+
 }  // namespace
+
+void watchStopSignals() {
+  const sigset_t set = stopSignals();
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);  // threads made later inherit this
+  stopTarget();
+  std::thread([set] {
+    for (int signal = 0; sigwait(&set, &signal) == 0;) {
+      const std::lock_guard lock(stopTarget().mutex);
+      std::stop_source* stop = stopTarget().stop;
+      if (!stop || !stop->request_stop()) _exit(kInterruptedCode);  // nothing to save, or asked twice
+    }
+  }).detach();
+}
 
 void setUpLog(const GlobalOptions& global) {
   auto logger =
@@ -66,9 +91,6 @@ struct Console::State {
   std::string phase;
   Clock::time_point phase_start, last_draw;
   std::stop_source stop;
-  std::atomic<bool> interrupted{false};
-  sigset_t previous_mask{};
-  std::jthread signal_thread;
 
   void draw(std::string_view name, std::uint64_t done, std::uint64_t total) {
     const auto now = Clock::now();
@@ -100,25 +122,14 @@ struct Console::State {
 
 Console::Console(const GlobalOptions& global) : state_(std::make_unique<State>()) {
   state_->bar = !global.quiet && !global.verbose && isatty(STDERR_FILENO);
-  // Signals are taken by one thread of our own, so a stop can be requested with ordinary code.
-  const sigset_t set = stopSignals();
-  pthread_sigmask(SIG_BLOCK, &set, &state_->previous_mask);
-  state_->signal_thread = std::jthread([state = state_.get()](const std::stop_token& ended) {
-    const sigset_t signals = stopSignals();
-    const timespec poll{0, 50'000'000};
-    while (!ended.stop_requested())
-      if (sigtimedwait(&signals, nullptr, &poll) > 0) {
-        if (state->interrupted.exchange(true)) _exit(130);  // asked twice: leave at once
-        state->stop.request_stop();
-      }
-  });
+  const std::lock_guard lock(stopTarget().mutex);
+  stopTarget().stop = &state_->stop;
 }
 
 Console::~Console() {
   clear();
-  state_->signal_thread.request_stop();
-  state_->signal_thread.join();
-  pthread_sigmask(SIG_SETMASK, &state_->previous_mask, nullptr);
+  const std::lock_guard lock(stopTarget().mutex);
+  stopTarget().stop = nullptr;
 }
 
 RunControl Console::control() {
@@ -138,7 +149,7 @@ void Console::clear() {
 }
 
 bool Console::interrupted() const {
-  return state_->interrupted;
+  return state_->stop.stop_requested();
 }
 
 }  // namespace vantage::app

@@ -6,7 +6,7 @@
 namespace vantage::app {
 
 /// Writes a JSON document to a file, or to standard output for "-"; nothing if `path` is empty.
-/// \throws std::runtime_error naming the file if it cannot be written.
+/// \throws as saveFile().
 void writeJson(const std::string& path, const nlohmann::ordered_json& document);
 
 }  // namespace vantage::app

@@ -152,6 +152,7 @@ int parseAndRun(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  watchStopSignals();
   try {
     return parseAndRun(argc, argv);
   } catch (const GlUnavailable& e) {
@@ -162,6 +163,8 @@ int main(int argc, char** argv) {
     return fail(kBadInput, e.what());
   } catch (const Interrupted& e) {
     return fail(kFailed, e.what());
+  } catch (const Cancelled&) {
+    return fail(kFailed, "interrupted; nothing more was written");
   } catch (const std::bad_alloc&) {
     return fail(kFailed, "memory: not enough for this work; choose a smaller volume or a larger voxel");
   } catch (const std::exception& e) {
