@@ -10,7 +10,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "core/geometry/check.h"
 #include "viewer/layers/layer.h"
 #include "viewer/legend.h"
 #include "viewer/page.h"
@@ -67,18 +66,20 @@ void addLights(vtkRenderer& renderer) {
 
 }  // namespace
 
-Eye fitEye(const CameraView& view, const Box& box, double width_to_height) {
-  requireInRange("camera zoom", view.zoom, 0.01, 100.0);
-  requireInRange("camera fov_rad", view.fov_rad, 0.01, 2.5);
+Eye fitEye(const CameraView& view, std::span<const Eigen::Vector3d> points, double width_to_height) {
+  view.validate();
+  if (points.empty()) throw std::invalid_argument("fitEye: there is nothing to be seen");
+  Box box;
+  for (const Eigen::Vector3d& p : points) box.extend(p);
   const Eigen::Vector3d back = towardEye(view);
   const Eigen::Vector3d right = Eigen::Vector3d::UnitZ().cross(back).normalized(), up = back.cross(right);
   const double tan_v = std::tan(view.fov_rad / 2), tan_h = tan_v * width_to_height;
   Eigen::Vector3d focus = box.center();
-  double distance = box.diagonal().norm() / std::tan(view.fov_rad / 2);
+  double distance = std::max(1e-3, box.diagonal().norm()) / tan_v;
   for (int round = 0; round < 40; ++round) {
     double left = 1e9, rightmost = -1e9, bottom = 1e9, top = -1e9;
-    for (int c = 0; c < 8; ++c) {
-      const Eigen::Vector3d p = box.corner(static_cast<Box::CornerType>(c)) - focus;
+    for (const Eigen::Vector3d& point : points) {
+      const Eigen::Vector3d p = point - focus;
       const double depth = distance - p.dot(back);
       const double x = p.dot(right) / depth / tan_h, y = p.dot(up) / depth / tan_v;
       left = std::min(left, x), rightmost = std::max(rightmost, x);
@@ -106,9 +107,16 @@ void Scene::State::placeCamera(const CameraView& camera, double width_to_height)
   const Box& workspace = frame->header.workspace;
   const Box box = workspace.isEmpty() ? Box(Eigen::Vector3d(-1, -1, 0), Eigen::Vector3d(1, 1, 1)) : workspace;
   Box seen = box;
-  seen.min().y() -= camera.front_m;
-  seen.max().z() += camera.above_m;
-  const Eye eye = fitEye(camera, seen, width_to_height);
+  const bool known_scene = frame->truth && !frame->truth->empty();
+  seen.min().y() -= camera.front_m.value_or(known_scene ? 0.2 : 0.0);
+  seen.max().z() = seen.min().z() + camera.height_share.value_or(known_scene ? 0.8 : 1.0) * box.sizes().z();
+  std::vector<Eigen::Vector3d> points;
+  for (int c = 0; c < 8; ++c) points.push_back(seen.corner(static_cast<Box::CornerType>(c)));
+  for (int i = 0; i < kLayerCount; ++i) {
+    if (!shown.has(static_cast<Layer>(i)) || !built[i]) continue;
+    points.insert(points.end(), built[i]->must_see.begin(), built[i]->must_see.end());
+  }
+  const Eye eye = fitEye(camera, points, width_to_height);
   vtkCamera* target = view->GetActiveCamera();
   target->SetPosition(eye.position.data());
   target->SetFocalPoint(eye.focus.data());
@@ -131,6 +139,7 @@ void Scene::show(const ViewSettings& settings, const Caption& caption, PageStyle
                  int height) {
   if (!state_->frame) throw std::logic_error("Scene::show() before setFrame()");
   settings.style.validate();
+  settings.camera.validate();
   const double unit = unitOf(width, height);
   LayerStyle style = settings.style;
   style.label_px *= unit;

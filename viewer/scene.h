@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -58,10 +59,11 @@ class Scene {
   std::unique_ptr<State> state_;
 };
 
-/// Eye of a view for a box that must be seen whole, in a picture of the given shape.
+/// Eye of a view for points that must all be seen, in a picture of the given shape. \throws
+/// std::invalid_argument for a view out of range or no points.
 struct Eye {
   Eigen::Vector3d position, focus;
 };
-Eye fitEye(const CameraView& view, const Box& box, double width_to_height);
+Eye fitEye(const CameraView& view, std::span<const Eigen::Vector3d> points, double width_to_height);
 
 }  // namespace vantage

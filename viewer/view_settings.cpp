@@ -41,4 +41,14 @@ void LayerStyle::validate() const {
   requireInRange("line_scale", line_scale, 0.01, 20.0);
 }
 
+void CameraView::validate() const {
+  constexpr double kSteepest_rad = 1.55;  // straight down there is no "up" in the picture
+  requireInRange("azimuth_rad", azimuth_rad, -100.0, 100.0);
+  requireInRange("elevation_rad", elevation_rad, -kSteepest_rad, kSteepest_rad);
+  requireInRange("fov_rad", fov_rad, 0.01, 2.5);
+  requireInRange("zoom", zoom, 0.01, 100.0);
+  if (front_m) requireInRange("front_m", *front_m, 0.0, 10.0);
+  if (height_share) requireInRange("height_share", *height_share, 0.01, 1.0);
+}
+
 }  // namespace vantage

@@ -61,25 +61,33 @@ struct LayerStyle {
   int unreachable_views = 12;      ///< better ones that could not be reached, 0..500
   double frustum_length_m = 0.10;  ///< of ranked views, metres
   int slice_axis = 1;              ///< normal of the slice: 0 x, 1 y, 2 z
-  double slice_at_m = 0.0;         ///< its position along that axis, world, metres
-  double truth_opacity = 1.0;      ///< (0, 1]; below 1 the true scene is a ghost
-  double surface_opacity = 1.0;    ///< (0, 1]
-  double label_px = 15.0;          ///< text in the scene, pixels
-  double line_scale = 1.0;         ///< widths of lines and points are multiplied by it, > 0
+  std::optional<double>
+      slice_at_m;  ///< its position along that axis, world, metres; empty = middle of the workspace
+  double truth_opacity = 1.0;    ///< (0, 1]; below 1 the true scene is a ghost
+  double surface_opacity = 1.0;  ///< (0, 1]
+  double label_px = 15.0;        ///< text in the scene, pixels
+  double line_scale = 1.0;       ///< widths of lines and points are multiplied by it, > 0
   bool operator==(const LayerStyle&) const = default;
   /// \throws std::invalid_argument naming field, value and range.
   void validate() const;
 };
 
-/// Where the scene is looked at from; the same for every step, so that pictures can be compared.
+/// Where the scene is looked at from; the same for every step, so that pictures can be compared. Sensors,
+/// views and paths that are shown and leave the workspace make the picture wider.
 struct CameraView {
   double azimuth_rad = -1.0297442586766543;   ///< of the eye from +x about z; -59 deg, the robot is at -y
   double elevation_rad = 0.6806784082777885;  ///< above the horizon; 39 deg
   double fov_rad = 0.4363323129985824;        ///< vertical aperture; 25 deg
   double zoom = 1.0;                          ///< 1: what must be seen fills the picture
-  double front_m = 0.20;   ///< space before the workspace (-y) that must be seen too: the sensor moves there
-  double above_m = -0.20;  ///< the same above it; negative: its upper part, mostly empty, may be cut off
+  /// Space before the workspace (-y) that must be seen too, metres, 0..10; empty = 0.2 in a known scene, else
+  /// 0.
+  std::optional<double> front_m;
+  /// Share of the workspace's height that must be seen, (0, 1]; empty = 0.8 in a known scene, whose upper
+  /// part is empty, else all of it.
+  std::optional<double> height_share;
   bool operator==(const CameraView&) const = default;
+  /// \throws std::invalid_argument naming field, value and range.
+  void validate() const;
 };
 
 /// A view of a step: layers, style, eye. Scene::show() draws it.

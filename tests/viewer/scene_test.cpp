@@ -208,7 +208,9 @@ TEST(FitEye, KeepsEveryCornerInThePicture) {
   for (const double shape : {0.5, 1.0, 2.5}) {
     const Box box(Eigen::Vector3d(-1.0, -1.0, 0.0), Eigen::Vector3d(1.0, 0.66, 1.0));
     const CameraView view;
-    const Eye eye = fitEye(view, box, shape);
+    std::vector<Eigen::Vector3d> corners;
+    for (int c = 0; c < 8; ++c) corners.push_back(box.corner(static_cast<Box::CornerType>(c)));
+    const Eye eye = fitEye(view, corners, shape);
     const Eigen::Vector3d forward = (eye.focus - eye.position).normalized();
     const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ()).normalized(),
                           up = right.cross(forward);

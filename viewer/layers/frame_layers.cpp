@@ -34,7 +34,7 @@ LayerContent axesLayer(const SceneFrame& frame, const LayerStyle& style) {
     content.props.push_back(tubeActor({origin, end}, 0.03 * length, colors[axis]));
     content.props.push_back(
         labelProp(origin + 1.25 * length * Eigen::Vector3d::Unit(axis) + Eigen::Vector3d(0.0, 0.0, 0.03),
-                  names[axis], style.label_px, colors[axis], true, false));
+                  names[axis], style.label_px, colors[axis]));
   }
   return content;
 }

@@ -14,6 +14,7 @@ namespace vantage {
 /// What a layer adds to a view.
 struct LayerContent : LayerNotes {
   std::vector<vtkSmartPointer<vtkProp>> props;
+  std::vector<Eigen::Vector3d> must_see;  ///< world points that must not fall outside the picture
 };
 
 // One function a product: it turns the product into actors and nothing more. A product that the record lacks

@@ -67,6 +67,7 @@ LayerContent sensorLayer(const SceneFrame& frame, const LayerStyle& style) {
   const std::optional<Pose> pose = sensorPose(frame.record);
   if (!pose) return content;
   content.props.push_back(bodyActor(*pose));
+  content.must_see.push_back(pose->translation());
   LineSet frustum;
   addFrustum(frustum, frame.header.camera, *pose, 0.45);
   content.props.push_back(lineActor(frustum, palette::kSensor, 2.0 * style.line_scale));

@@ -3,6 +3,7 @@
 #include <vtkBillboardTextActor3D.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkCoordinate.h>
 #include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -11,6 +12,7 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkSphereSource.h>
+#include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkTubeFilter.h>
 #include <vtkTypeInt32Array.h>
@@ -69,6 +71,15 @@ vtkSmartPointer<vtkUnsignedCharArray> toColors(std::size_t count, auto&& bytes_o
     colors->SetTypedTuple(static_cast<vtkIdType>(i), bytes.data());
   }
   return colors;
+}
+
+void styleLabel(vtkTextProperty& text, double size_px, Rgb color) {
+  text.SetFontFamilyToArial();
+  text.SetFontSize(static_cast<int>(std::lround(size_px)));
+  text.SetBold(true);
+  text.SetColor(color.r, color.g, color.b);
+  text.SetJustificationToCentered();
+  text.SetVerticalJustificationToCentered();
 }
 
 }  // namespace
@@ -213,23 +224,26 @@ vtkSmartPointer<vtkActor> triangleActor(const std::vector<Eigen::Vector3f>& poin
 }
 
 vtkSmartPointer<vtkProp> labelProp(const Eigen::Vector3d& at, const std::string& utf8, double size_px,
-                                   Rgb color, bool bold, bool plate) {
+                                   Rgb color) {
   auto label = vtkSmartPointer<vtkBillboardTextActor3D>::New();
   label->SetPosition(at.x(), at.y(), at.z());
   label->SetInput(utf8.c_str());
+  styleLabel(*label->GetTextProperty(), size_px, color);
+  return label;
+}
+
+vtkSmartPointer<vtkProp> plateProp(const Eigen::Vector3d& at, const std::string& utf8, double size_px,
+                                   Rgb color) {
+  auto label = vtkSmartPointer<vtkTextActor>::New();
+  label->GetPositionCoordinate()->SetCoordinateSystemToWorld();
+  label->GetPositionCoordinate()->SetValue(at.x(), at.y(), at.z());
+  label->SetInput((" " + utf8 + " ").c_str());
   vtkTextProperty* text = label->GetTextProperty();
-  text->SetFontFamilyToArial();
-  text->SetFontSize(static_cast<int>(std::lround(size_px)));
-  text->SetBold(bold);
-  text->SetColor(color.r, color.g, color.b);
-  text->SetJustificationToCentered();
-  text->SetVerticalJustificationToCentered();
-  if (plate) {
-    text->SetBackgroundColor(1.0, 1.0, 1.0);
-    text->SetBackgroundOpacity(1.0);
-    text->SetFrame(true);
-    text->SetFrameColor(color.r, color.g, color.b);
-  }
+  styleLabel(*text, size_px, color);
+  text->SetBackgroundColor(1.0, 1.0, 1.0);
+  text->SetBackgroundOpacity(1.0);
+  text->SetFrame(true);
+  text->SetFrameColor(color.r, color.g, color.b);
   return label;
 }
 

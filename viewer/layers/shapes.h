@@ -55,9 +55,13 @@ vtkSmartPointer<vtkActor> triangleActor(const std::vector<Eigen::Vector3f>& poin
                                         const std::vector<std::array<std::uint8_t, 3>>& colors, Rgb color,
                                         double opacity);
 
-/// Text that faces the eye.
+/// Text that faces the eye and is hidden by what stands before it.
 vtkSmartPointer<vtkProp> labelProp(const Eigen::Vector3d& at, const std::string& utf8, double size_px,
-                                   Rgb color, bool bold, bool plate);
+                                   Rgb color);
+
+/// Text on a white plate over everything else. Later ones cover earlier ones.
+vtkSmartPointer<vtkProp> plateProp(const Eigen::Vector3d& at, const std::string& utf8, double size_px,
+                                   Rgb color);
 
 /// Apex and the corners of the image at `depth_m`, in the order left-top, right-top, right-bottom,
 /// left-bottom.

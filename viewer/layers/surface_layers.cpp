@@ -35,6 +35,32 @@ std::vector<std::array<std::uint8_t, 3>> saliencyColors(const SurfaceCloud& surf
   return colors;
 }
 
+/// Where the number of a segment stands: on compact ones at the centre, on wide ones (table, wall) at the
+/// point nearest to it that keeps clear of all other segments, so that it can't be taken for theirs.
+Eigen::Vector3d numberPlace(const StepRecord& record, const Segment& segment) {
+  constexpr double kCompact_m = 0.45, kClear_m = 0.35;
+  constexpr std::size_t kMostOwn = 400, kMostOthers = 4000;
+  if (segment.extent_m[0] <= kCompact_m || !record.surface || !record.labels) return segment.center_m;
+  const std::vector<std::uint32_t>& label = record.labels->of_point;
+  const std::size_t count = std::min(label.size(), record.surface->points.size());
+  std::vector<Eigen::Vector3f> own, others;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (label[i] != 0) (label[i] == segment.label ? own : others).push_back(record.surface->points[i]);
+  }
+  const std::size_t own_stride = own.size() / kMostOwn + 1, stride = others.size() / kMostOthers + 1;
+  const Eigen::Vector3f center = segment.center_m.cast<float>();
+  Eigen::Vector3f best = center;
+  std::pair<double, double> best_rank{-1.0, 0.0};  // clearance first, then nearness to the centre
+  for (std::size_t i = 0; i < own.size(); i += own_stride) {
+    double clear_m = kClear_m;
+    for (std::size_t j = 0; j < others.size(); j += stride)
+      clear_m = std::min<double>(clear_m, (others[j] - own[i]).norm());
+    const std::pair<double, double> rank{clear_m, -(own[i] - center).norm()};
+    if (rank > best_rank) best_rank = rank, best = own[i];
+  }
+  return best.cast<double>();
+}
+
 }  // namespace
 
 LayerContent truthLayer(const SceneFrame& frame, const LayerStyle& style) {
@@ -83,7 +109,8 @@ LayerContent segmentsLayer(const SceneFrame& frame, const LayerStyle& style) {
   const auto colors = saliencyColors(surface, *record.labels, *record.saliency, style.saliency_max);
   content.props.push_back(triangleActor(surface.points, surface.normals, surface.triangles, colors,
                                         palette::kSurface, style.surface_opacity));
-  content.scale = ColorScale{ColorMap::Viridis, "saliency of the segment", 0.0, style.saliency_max, true};
+  if (!record.saliency->segments.empty())
+    content.scale = ColorScale{ColorMap::Viridis, "saliency of the segment", 0.0, style.saliency_max, true};
   content.legend.push_back({LegendEntry::Mark::Fill, palette::kNoSegment, 1.0, "surface without a segment"});
   return content;
 }
@@ -92,19 +119,18 @@ LayerContent segmentRanksLayer(const SceneFrame& frame, const LayerStyle& style)
   LayerContent content;
   const StepRecord& record = frame.record;
   if (!record.search || !record.saliency) return content;
-  int rank = 0;
-  for (const SegmentSearch& search : record.search->segments) {
-    if (++rank > kRankLabels) break;
-    if (search.segment < 0 || search.segment >= static_cast<int>(record.saliency->segments.size())) continue;
-    const Segment& segment = record.saliency->segments[search.segment];
-    const double half_height = segment.axes.row(2).cwiseAbs().dot(segment.extent_m) / 2;
-    const Eigen::Vector3d at = segment.center_m + Eigen::Vector3d(0.0, 0.0, half_height + 0.04);
-    content.props.push_back(
-        labelProp(at, std::to_string(rank), style.label_px * 1.15, palette::kInk, true, true));
+  const auto& searches = record.search->segments;
+  const int numbered = std::min(kRankLabels, static_cast<int>(searches.size()));
+  for (int i = numbered - 1; i >= 0; --i) {  // the first one on top
+    if (searches[i].segment < 0 || searches[i].segment >= static_cast<int>(record.saliency->segments.size()))
+      continue;
+    const Segment& segment = record.saliency->segments[searches[i].segment];
+    content.props.push_back(plateProp(numberPlace(record, segment), std::to_string(i + 1),
+                                      style.label_px * (i == 0 ? 1.4 : 1.1), palette::kInk));
   }
   if (!content.props.empty()) {
     content.legend.push_back(
-        {LegendEntry::Mark::Fill, rgb(255, 255, 255), 1.0, "1 2 3: order in which segments are tried"});
+        {LegendEntry::Mark::Fill, rgb(255, 255, 255), 1.0, "1 2 3 ...: order in which segments are tried"});
   }
   return content;
 }

@@ -62,7 +62,7 @@ LayerContent candidatesLayer(const SceneFrame& frame, const LayerStyle& style) {
   std::vector<Eigen::Vector3d> eyes;
   for (const ViewPosition& position : *frame.record.positions)
     eyes.push_back(position.T_world_camera.translation());
-  content.props.push_back(dotActor(eyes, {}, palette::kCandidate, 2.0 * style.line_scale));
+  content.props.push_back(dotActor(eyes, {}, palette::kCandidate, 4.0 * style.line_scale));
   content.legend.push_back({Mark::Dot, palette::kCandidate, 1.0, "positions of all candidate views"});
   return content;
 }
@@ -77,11 +77,13 @@ LayerContent rankedViewsLayer(const SceneFrame& frame, const LayerStyle& style) 
   int shown = 0, unreachable = 0;
   for (const RankedPosition& view : ranked) {
     if (view.unreachable()) {
+      // They stand where no sensor goes: they don't widen the picture.
       if (unreachable++ >= style.unreachable_views) continue;
       addDashedFrustum(barred, frame.header.camera, view.T_world_camera, style.frustum_length_m);
       addCross(barred, view.T_world_camera, 0.014);
     } else if (shown++ < style.ranked_views) {
       const std::size_t before = colored.pieces.size();
+      content.must_see.push_back(view.T_world_camera.translation());
       addFrustum(colored, frame.header.camera, view.T_world_camera, style.frustum_length_m);
       colored.colors.insert(colored.colors.end(), colored.pieces.size() - before,
                             colorAt(ColorMap::Viridis, range.at(view.gain)));
@@ -114,6 +116,10 @@ LayerContent chosenViewLayer(const SceneFrame& frame, const LayerStyle& style) {
   content.props.push_back(lineActor(axis, palette::kChosen, 2.0 * style.line_scale));
   content.props.push_back(dotActor({chosen.T_world_camera * Eigen::Vector3d(0.0, 0.0, distance)}, {},
                                    palette::kChosen, 11.0 * style.line_scale));
+  const FrustumCorners corners =
+      frustumCorners(frame.header.camera, chosen.T_world_camera, std::min(distance, 0.30));
+  content.must_see.assign(corners.image.begin(), corners.image.end());
+  content.must_see.push_back(corners.apex);
   content.legend.push_back({Mark::Line, palette::kChosen, 1.0, "chosen view"});
   content.legend.push_back({Mark::Dashed, palette::kChosen, 1.0, "its optical axis to the contour point"});
 
@@ -144,6 +150,7 @@ LayerContent pathLayer(const SceneFrame& frame, const LayerStyle&) {
   content.props.push_back(ballActor(line.front(), 0.014, palette::kPath));
   content.props.push_back(ballActor(line.back(), 0.014, palette::kChosen));
   content.legend.push_back({Mark::Line, palette::kPath, 1.0, "path of the sensor to it"});
+  content.must_see = line;
   return content;
 }
 

@@ -8,7 +8,7 @@
 #include <vtkTexture.h>
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
 
 #include "viewer/layers/layer.h"
 #include "viewer/layers/shapes.h"
@@ -29,20 +29,43 @@ LayerContent faceLayer(const SceneFrame& frame, VoxelState state, FaceRule rule,
   return content;
 }
 
-/// States on one plane of the grid as a picture: u along the first other axis, v along the second.
-vtkSmartPointer<vtkImageData> sliceImage(const StateGrid& grid, int axis, int index) {
+/// A plane of voxels: those from `first` to `last`, which are equal along `axis`.
+struct VoxelPlane {
+  int axis = 0, u = 1, v = 2;  ///< normal, and the axes of its picture
+  Eigen::Vector3i first = Eigen::Vector3i::Zero(), last = Eigen::Vector3i::Zero();
+};
+
+/// The plane of a style within the workspace; nothing if it misses the workspace or the grid.
+std::optional<VoxelPlane> planeOf(const SceneFrame& frame, const LayerStyle& style) {
+  const GridGeometry& geometry = frame.states.geometry();
+  if (geometry.count() == 0) return std::nullopt;
+  const Box& workspace = frame.header.workspace;
+  Box bounds = geometry.bounds();
+  if (!workspace.isEmpty()) bounds = bounds.intersection(workspace);
+  if (bounds.isEmpty()) return std::nullopt;
+  VoxelPlane plane{style.slice_axis, (style.slice_axis + 1) % 3, (style.slice_axis + 2) % 3};
+  const double at_m = style.slice_at_m.value_or(bounds.center()[plane.axis]);
+  if (at_m < bounds.min()[plane.axis] || at_m > bounds.max()[plane.axis]) return std::nullopt;
+  bounds.min()[plane.axis] = bounds.max()[plane.axis] = at_m;
+  const Eigen::Vector3i largest(geometry.size[0] - 1, geometry.size[1] - 1, geometry.size[2] - 1);
+  plane.first = geometry.voxelAt(bounds.min()).cwiseMax(0).cwiseMin(largest);
+  plane.last = geometry.voxelAt(bounds.max()).cwiseMax(0).cwiseMin(largest);
+  return plane;
+}
+
+/// States on the plane as a picture: u to the right, v up.
+vtkSmartPointer<vtkImageData> sliceImage(const StateGrid& grid, const VoxelPlane& plane) {
   const GridGeometry& geometry = grid.geometry();
-  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const std::array<std::array<std::uint8_t, 3>, 3> colors = {
       palette::kUnknown.bytes(), palette::kFree.bytes(), palette::kOccupied.bytes()};
+  const Eigen::Vector3i size = plane.last - plane.first + Eigen::Vector3i::Ones();
   auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(geometry.size[u], geometry.size[v], 1);
+  image->SetDimensions(size[plane.u], size[plane.v], 1);
   image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
   auto* out = static_cast<std::uint8_t*>(image->GetScalarPointer());
-  Eigen::Vector3i voxel;
-  voxel[axis] = index;
-  for (voxel[v] = 0; voxel[v] < geometry.size[v]; ++voxel[v]) {
-    for (voxel[u] = 0; voxel[u] < geometry.size[u]; ++voxel[u]) {
+  Eigen::Vector3i voxel = plane.first;
+  for (voxel[plane.v] = plane.first[plane.v]; voxel[plane.v] <= plane.last[plane.v]; ++voxel[plane.v]) {
+    for (voxel[plane.u] = plane.first[plane.u]; voxel[plane.u] <= plane.last[plane.u]; ++voxel[plane.u]) {
       const auto& color = colors[grid.states()[geometry.index(voxel)] % 3];
       out = std::copy(color.begin(), color.end(), out);
     }
@@ -85,19 +108,17 @@ LayerContent freeLayer(const SceneFrame& frame, const LayerStyle& style) {
 
 LayerContent slicesLayer(const SceneFrame& frame, const LayerStyle& style) {
   LayerContent content;
+  const std::optional<VoxelPlane> voxels = planeOf(frame, style);
+  if (!voxels) return content;
   const GridGeometry& geometry = frame.states.geometry();
-  if (geometry.count() == 0) return content;
-  const int axis = style.slice_axis, u = (axis + 1) % 3, v = (axis + 2) % 3;
-  Eigen::Vector3d at = geometry.origin_m;
-  at[axis] = style.slice_at_m;
-  const int index = geometry.voxelAt(at)[axis];
-  if (index < 0 || index >= geometry.size[axis]) return content;
-
-  const Box bounds = geometry.bounds();
-  Eigen::Vector3d origin = bounds.min(), end_u = bounds.min(), end_v = bounds.min();
-  origin[axis] = end_u[axis] = end_v[axis] = style.slice_at_m;
-  end_u[u] = bounds.max()[u];
-  end_v[v] = bounds.max()[v];
+  const Eigen::Vector3d half = Eigen::Vector3d::Constant(geometry.voxel_size_m / 2);
+  const Eigen::Vector3d low = geometry.center(voxels->first) - half,
+                        high = geometry.center(voxels->last) + half;
+  Eigen::Vector3d origin = low;
+  origin[voxels->axis] = geometry.center(voxels->first)[voxels->axis];
+  Eigen::Vector3d end_u = origin, end_v = origin;
+  end_u[voxels->u] = high[voxels->u];
+  end_v[voxels->v] = high[voxels->v];
   vtkNew<vtkPlaneSource> plane;
   plane->SetOrigin(origin.data());
   plane->SetPoint1(end_u.data());
@@ -105,7 +126,7 @@ LayerContent slicesLayer(const SceneFrame& frame, const LayerStyle& style) {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(plane->GetOutputPort());
   vtkNew<vtkTexture> texture;
-  texture->SetInputData(sliceImage(frame.states, axis, index));
+  texture->SetInputData(sliceImage(frame.states, *voxels));
   texture->SetColorModeToDirectScalars();
   texture->InterpolateOff();
   vtkNew<vtkActor> actor;
