@@ -29,7 +29,7 @@ std::string percent(double share) {
 std::string nameOf(const StepRecord& record, const SegmentSearch& search) {
   if (search.segment < 0 || !record.saliency ||
       search.segment >= static_cast<int>(record.saliency->segments.size())) {
-    return record.planner == "standard" ? "the whole workspace" : "points without a segment";
+    return "contour points without a segment";
   }
   return "segment " + std::to_string(record.saliency->segments[search.segment].label) +
          format(" (saliency %.2f)", search.saliency);
@@ -57,6 +57,10 @@ std::string refusals(const SegmentSearch& search, double threshold) {
   return text;
 }
 
+const std::string& plannerOf(const SceneFrame& frame) {
+  return frame.record.planner.empty() ? frame.header.planner : frame.record.planner;
+}
+
 }  // namespace
 
 std::string grouped(std::uint64_t value) {
@@ -72,7 +76,7 @@ std::string grouped(std::uint64_t value) {
 std::string stepLine(const SceneFrame& frame) {
   const std::string input = std::filesystem::path(frame.header.input).stem().string();
   std::string text = input.empty() ? "run" : input;
-  const std::string& planner = frame.record.planner.empty() ? frame.header.planner : frame.record.planner;
+  const std::string& planner = plannerOf(frame);
   if (!planner.empty()) text += "  ·  " + planner + " planner";
   if (frame.record.closing) return text + "  ·  map after the last scan";
   text += "  ·  step " + std::to_string(frame.record.step);
@@ -129,7 +133,11 @@ std::string contourFigures(const SceneFrame& frame) {
 
 std::string segmentFigures(const SceneFrame& frame) {
   const StepRecord& record = frame.record;
-  if (!record.saliency || record.saliency->segments.empty()) return "No segments.";
+  if (!record.saliency || record.saliency->segments.empty()) {
+    return plannerOf(frame) == "standard"
+               ? "The standard planner does not use segments: it scores all views alike."
+               : "The surface has no segments.";
+  }
   std::string text = plural(record.saliency->segments.size(), "segment") + ". ";
   if (!record.search || record.search->segments.empty()) return text + "None has contour points.";
   text += "Tried in the order of saliency: ";
@@ -159,7 +167,11 @@ std::string viewFigures(const SceneFrame& frame) {
   const SegmentSearch* segment = shownSearch(record);
   std::string text;
   if (chosen.search > 0) text = plural(chosen.search, "more salient segment") + " had no view; ";
-  if (segment) text += (text.empty() ? "Tried first: " : "then ") + nameOf(record, *segment) + ". ";
+  if (plannerOf(frame) == "standard") {
+    text = plural(search.counts.poses_scored, "view") + " scored over the whole workspace. ";
+  } else if (segment) {
+    text += (text.empty() ? "Tried first: " : "then ") + nameOf(record, *segment) + ". ";
+  }
   text += "View " + std::to_string(chosen.id) + " gains " + grouped(static_cast<std::uint64_t>(chosen.gain)) +
           " rays (" + plural(chosen.gain_voxels, "voxel") + "), above " + limit + ".";
   const std::string refused = segment ? refusals(*segment, threshold) : "";
