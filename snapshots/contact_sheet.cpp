@@ -48,7 +48,7 @@ void ContactSheet::addRow(Scene& scene, OffscreenRenderer& renderer, const Scene
   row.label = frame.record.closing ? "end" : std::to_string(frame.record.step);
   for (const Recipe& recipe : columns_) {
     Tile tile;
-    if (frame.record.closing && recipe.planning) {
+    if (frame.record.closing && recipe.planning()) {
       row.tiles.push_back(tile);
       continue;
     }

@@ -20,32 +20,41 @@ ViewSettings viewOf(LayerSet layers) {
 std::vector<Recipe> makeRecipes() {
   std::vector<Recipe> all;
   all.push_back({"scene", "Scene and sensor", "the true scene, the sensor and its last depth image",
-                 viewOf({Layer::Truth, Layer::Sensor, Layer::DepthImage}), scanFigures, false});
+                 viewOf({Layer::Truth, Layer::Sensor, Layer::DepthImage}), scanFigures});
   all.push_back({"states", "Voxel states", "what is occupied and what is still unknown",
-                 viewOf({Layer::Occupied, Layer::Unknown}), stateFigures, false});
+                 viewOf({Layer::Occupied, Layer::Unknown}), stateFigures});
   all.push_back({"contours", "Contours", "contour voxels and contour points with their normals",
-                 viewOf({Layer::Surface, Layer::ContourVoxels, Layer::ContourPoints}), contourFigures, true});
+                 viewOf({Layer::Surface, Layer::ContourVoxels, Layer::ContourPoints}), contourFigures});
   all.push_back({"segments", "Saliency of the segments",
                  "the surface coloured by the saliency of its segments",
-                 viewOf({Layer::Segments, Layer::SegmentRanks}), segmentFigures, true});
+                 viewOf({Layer::Segments, Layer::SegmentRanks}), segmentFigures});
   all.push_back({"views", "Ranked views and the next best view",
                  "the best views, the chosen one and the path to it",
                  viewOf({Layer::Surface, Layer::Unknown, Layer::RankedViews, Layer::ChosenView, Layer::Path}),
-                 viewFigures, true});
+                 viewFigures});
   all.push_back({"candidates", "Candidate views", "the positions of all candidate views",
-                 viewOf({Layer::Surface, Layer::Candidates, Layer::ChosenView}), contourFigures, true});
+                 viewOf({Layer::Surface, Layer::Candidates, Layer::ChosenView}), contourFigures});
   all.push_back({"slice", "Slice through the voxel states",
                  "states on the plane through the middle of the scene",
-                 viewOf({Layer::Slices, Layer::Surface}), stateFigures, false});
+                 viewOf({Layer::Slices, Layer::Surface}), stateFigures});
   all.push_back({"overview", "What is known, and where to look next",
                  "states, contours, segment and chosen view in one picture",
-                 viewOf({Layer::Segments, Layer::Unknown, Layer::ContourPoints, Layer::ChosenView,
-                         Layer::Path, Layer::Sensor}),
-                 viewFigures, true});
+                 viewOf({Layer::Segments, Layer::SegmentRanks, Layer::Unknown, Layer::ContourVoxels,
+                         Layer::ChosenView, Layer::Path}),
+                 viewFigures});
   return all;
 }
 
 }  // namespace
+
+bool Recipe::planning() const {
+  static constexpr Layer kOfTheMap[] = {Layer::Workspace, Layer::Axes,      Layer::Truth,  Layer::Occupied,
+                                        Layer::Unknown,   Layer::Free,      Layer::Slices, Layer::Surface,
+                                        Layer::Sensor,    Layer::DepthImage};
+  LayerSet rest = view.layers;
+  for (const Layer layer : kOfTheMap) rest.set(layer, false);
+  return rest != LayerSet();
+}
 
 const std::vector<Recipe>& recipes() {
   static const std::vector<Recipe> all = makeRecipes();
@@ -75,8 +84,6 @@ ViewSettings viewFor(const Recipe& recipe, const SceneFrame& frame) {
     view.layers.set(Layer::Truth, false);
     view.layers.set(Layer::Surface, true);
   }
-  const Box& workspace = frame.header.workspace;
-  if (!workspace.isEmpty()) view.style.slice_at_m = workspace.center()[view.style.slice_axis];
   return view;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -7,14 +8,15 @@
 
 namespace vantage {
 
-/// A named kind of picture of a step.
+/// A named kind of picture of a step: built in, or a TOML file (readRecipe).
 struct Recipe {
-  std::string name;     ///< on the command line and in file names
+  std::string name;     ///< on the command line and in file names; of a file: its name without the ending
   std::string title;    ///< above the picture
   std::string purpose;  ///< one line for help texts
   ViewSettings view;
   std::string (*figures)(const SceneFrame& frame) = nullptr;  ///< the sentence under the title
-  bool planning = true;  ///< shows products of planning, which the map after the last scan does not have
+  /// Shows products of planning, which the map after the last scan does not have.
+  bool planning() const;
 };
 
 /// All recipes, in the order of a contact sheet's columns.
@@ -28,6 +30,42 @@ std::vector<std::string> defaultRecipes();
 
 /// \throws InputError that suggests the nearest known name.
 const Recipe& recipeNamed(const std::string& name);
+
+/// A recipe of one's own. All keys but `layers` may be left out; then the value is that of the built-in
+/// recipes.
+///
+///     title = "Below the jugs"               # above the picture; default: the file's name
+///     caption = "states"                     # sentence under the title: scan, states, contours, segments,
+///     views layers = ["surface", "unknown"]        # see layerNames(); workspace, axes are layers too
+///
+///     [style]
+///     unknown_opacity = 0.1                  # (0, 0.15]
+///     free_opacity = 0.06                    # (0, 0.15]
+///     truth_opacity = 0.5                    # (0, 1]
+///     surface_opacity = 1.0                  # (0, 1]
+///     saliency_max = 0.8                     # upper end of the colour scale
+///     ranked_views = 12                      # 0..500
+///     unreachable_views = 0                  # 0..500
+///     frustum_length_m = 0.1
+///     slice_axis = "y"                       # normal of the slice: x, y or z
+///     slice_at_m = 0.05                      # its place on that axis, world; default: middle of the
+///     workspace label_px = 15 line_scale = 1.0
+///
+///     [camera]
+///     azimuth_deg = -59                      # of the eye from +x about z
+///     elevation_deg = 39                     # above the horizon
+///     fov_deg = 25                           # vertical aperture
+///     zoom = 1.0                             # 1: all that must be seen fills the picture
+///     front_m = 0.2                          # space before the workspace (-y) that must be seen; see
+///     CameraView height_share = 0.8                     # share of the workspace's height that must be seen
+///
+/// \throws InputError naming FILE:LINE: not readable, not TOML, unknown keys or layers (with the nearest
+/// known one), values out of range.
+Recipe readRecipe(const std::filesystem::path& file);
+
+/// The recipe of a command line: a file if it ends in .toml or has a folder, else a built-in one.
+/// \throws InputError
+Recipe recipeFrom(const std::string& name_or_file);
 
 /// The recipe's view for a frame: without ground truth the fused surface stands in for the true scene.
 ViewSettings viewFor(const Recipe& recipe, const SceneFrame& frame);

@@ -26,30 +26,43 @@ std::string stepText(int step) {
   return text;
 }
 
-/// The steps to draw: those asked for, and the closing map.
+/// The steps to draw: those asked for, and the closing map if one of the recipes can show it.
 std::vector<int> stepsOf(const RunReader& reader, const SnapshotRequest& request,
-                         const std::filesystem::path& run) {
+                         const std::vector<Recipe>& recipes, const std::filesystem::path& run) {
+  const bool shows_map =
+      std::any_of(recipes.begin(), recipes.end(), [](const Recipe& recipe) { return !recipe.planning(); });
   std::vector<int> steps = reader.steps();
-  if (reader.hasClosing()) steps.push_back(reader.closingStep());
   if (!request.step) {
+    if (reader.hasClosing() && shows_map) steps.push_back(reader.closingStep());
     if (steps.empty())
       throw InputError(run.string(), "the run has no finished step yet; explore further first");
     return steps;
   }
-  if (std::find(steps.begin(), steps.end(), *request.step) != steps.end()) return {*request.step};
-  std::string known =
-      steps.empty() ? "none" : std::to_string(steps.front()) + " .. " + std::to_string(steps.back());
-  throw InputError(run.string(),
-                   "there is no step " + std::to_string(*request.step) + "; recorded: " + known);
+  if (reader.hasClosing()) steps.push_back(reader.closingStep());
+  const bool end = *request.step == SnapshotRequest::kEnd;
+  if (end && !reader.hasClosing())
+    throw InputError(run.string(), "there is no map after the last scan: the run was cut off; name a step");
+  const int step = end ? reader.closingStep() : *request.step;
+  if (std::find(steps.begin(), steps.end(), step) == steps.end()) {
+    const std::string known =
+        steps.empty() ? "none" : std::to_string(steps.front()) + " .. " + std::to_string(steps.back());
+    throw InputError(run.string(), "there is no step " + std::to_string(step) + "; recorded: " + known);
+  }
+  if (reader.hasClosing() && step == reader.closingStep() && !shows_map)
+    throw InputError(
+        "recipe '" + recipes.front().name + "'",
+        "it shows planning, which the map after the last scan does not have; try scene, states or slice");
+  return {step};
 }
 
 void checkRequest(const SnapshotRequest& request, std::size_t steps, std::size_t wanted) {
   if (request.output.empty()) throw InputError("output", "no file or folder is named; give one");
-  if (request.width < 160 || request.width > kLargestPicture || request.height < 160 ||
-      request.height > kLargestPicture) {
-    throw InputError(
-        "size " + std::to_string(request.width) + "x" + std::to_string(request.height),
-        "a side is out of range; allowed: 160 .. " + std::to_string(kLargestPicture) + " pixels");
+  constexpr int kSmallest = SnapshotRequest::kSmallestSide;
+  if (std::min(request.width, request.height) < kSmallest ||
+      std::max(request.width, request.height) > kLargestPicture) {
+    throw InputError("size " + std::to_string(request.width) + "x" + std::to_string(request.height),
+                     "a side is out of range; allowed: " + std::to_string(kSmallest) + " .. " +
+                         std::to_string(kLargestPicture) + " pixels");
   }
   if (!isPng(request.output)) return;
   const auto lacks = [&](const char* part) { return request.output.find(part) == std::string::npos; };
@@ -65,8 +78,8 @@ class SnapshotSession {
   SnapshotSession(const std::filesystem::path& run, const SnapshotRequest& request, const RunControl& control)
       : run_(run), request_(request), control_(control), reader_(run) {
     const std::vector<std::string> names = request.recipes.empty() ? defaultRecipes() : request.recipes;
-    for (const std::string& name : names) recipes_.push_back(recipeNamed(name));
-    steps_ = stepsOf(reader_, request, run);
+    for (const std::string& name : names) recipes_.push_back(recipeFrom(name));
+    steps_ = stepsOf(reader_, request, recipes_, run);
     checkRequest(request, steps_.size(), recipes_.size());
     name_ = run.stem().string();
     context_ = std::make_unique<EglContext>();
@@ -96,7 +109,7 @@ class SnapshotSession {
     for (const Recipe& recipe : recipes_) {
       control_.check();
       control_.report("pictures", done_++, total);
-      if (closing && recipe.planning) continue;
+      if (closing && recipe.planning()) continue;
       const RgbImage image = drawRecipe(scene_, *renderer_, recipe, frame, request_.width, request_.height);
       written_.push_back(snapshotPath(request_.output, name_, step, recipe.name));
       writePng(image, written_.back());

@@ -14,11 +14,13 @@ namespace vantage {
 
 /// Which pictures of a run are wanted.
 struct SnapshotRequest {
+  static constexpr int kSmallestSide = 160;
+  static constexpr int kEnd = 0;
   /// One step; empty = all recorded ones and, where a recipe shows the map only, the map after the last scan.
-  /// The number after the last step names that map.
+  /// kEnd and the number after the last step name that map.
   std::optional<int> step;
-  std::vector<std::string> recipes;  ///< empty = defaultRecipes()
-  int width = 1280, height = 800;    ///< pixels, 160..8192
+  std::vector<std::string> recipes;  ///< names or files (recipeFrom()); empty = defaultRecipes()
+  int width = 1280, height = 800;    ///< pixels, kSmallestSide..kLargestPicture
   /// A file name ending in .png, or a folder. `{run}`, `{step}` and `{view}` are replaced by the run's name,
   /// the step's number and the recipe's name; in a folder the files are `{run}-step{step}-{view}.png`.
   std::string output;

@@ -1,7 +1,11 @@
 #include "snapshots/snapshot.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <optional>
 
 #include "io/error.h"
@@ -18,20 +22,37 @@ struct SnapshotOptions {
 
 /// "WxH" in pixels.
 std::pair<int, int> parseSize(const std::string& text) {
+  constexpr int kLow = SnapshotRequest::kSmallestSide, kHigh = kLargestPicture;
   int width = 0, height = 0, used = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used) != 2 ||
-      used != static_cast<int>(text.size()) || width < 64 || height < 64 || width > 16384 || height > 16384)
-    throw InputError("--size " + text, "not a picture size; give WIDTHxHEIGHT in pixels, each 64 .. 16384");
+  if (std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &used) != 2 ||
+      used != static_cast<int>(text.size()) || std::min(width, height) < kLow ||
+      std::max(width, height) > kHigh)
+    throw InputError(
+        "--size " + text,
+        fmt::format("not a picture size; give WIDTHxHEIGHT in pixels, each {} .. {}", kLow, kHigh));
   return {width, height};
 }
 
+/// Number of a step, SnapshotRequest::kEnd, or nothing for all.
 std::optional<int> parseStep(const std::string& text) {
   if (text == "all") return std::nullopt;
+  if (text == "end") return SnapshotRequest::kEnd;
   char* end = nullptr;
   const long step = std::strtol(text.c_str(), &end, 10);
   if (text.empty() || *end != '\0' || step < 1 || step > 1'000'000)
-    throw InputError("--step " + text, "not a step; give its number, 1 or more, or 'all'");
+    throw InputError("--step " + text, "not a step; give its number, 1 or more, 'end' or 'all'");
   return static_cast<int>(step);
+}
+
+/// Names the recipes, those made by default first.
+std::string recipeHelp() {
+  const std::vector<std::string> defaults = defaultRecipes();
+  std::vector<std::string> more;
+  for (const std::string& name : recipeNames()) {
+    if (std::find(defaults.begin(), defaults.end(), name) == defaults.end()) more.push_back(name);
+  }
+  return fmt::format("Which picture, repeatable: {} (these by default), {}, or a TOML file of one's own",
+                     fmt::join(defaults, ", "), fmt::join(more, ", "));
 }
 
 int snapshot(const GlobalOptions& global, const SnapshotOptions& options) {
@@ -53,13 +74,12 @@ void addSnapshot(CLI::App& app, const GlobalOptions& global, Action& action) {
   auto options = std::make_shared<SnapshotOptions>();
   CLI::App* command = app.add_subcommand("snapshot", "Pictures of a recorded run as PNG, without a display");
   command->add_option("run", options->run, "Run file")->required()->type_name("RUN");
-  command->add_option("--step", options->step, "Number of one step, or all")->type_name("N|all");
-  command
-      ->add_option("--recipe", options->recipes,
-                   "Which picture: scene, states, contours, segments, views; repeatable (default: all)")
-      ->type_name("NAME")
+  command->add_option("--step", options->step, "Number of one step; end = the map after the last scan")
+      ->type_name("N|end|all");
+  command->add_option("--recipe", options->recipes, recipeHelp())
+      ->type_name("NAME|FILE")
       ->allow_extra_args(false);
-  command->add_option("--size", options->size, "Pixels")->type_name("WxH");
+  command->add_option("--size", options->size, "Pixels; default: 1280x800")->type_name("WxH");
   command
       ->add_option("-o,--output", options->output,
                    "PNG file or folder; {run} {step} {view} in the name are filled in")

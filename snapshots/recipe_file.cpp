@@ -1,0 +1,184 @@
+// Recipes as TOML files.
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "io/error.h"
+#include "io/scene_table.h"
+#include "io/suggest.h"
+#include "snapshots/recipe.h"
+#include "viewer/captions.h"
+
+namespace vantage {
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180.0;
+using Figures = std::string (*)(const SceneFrame&);
+
+constexpr std::pair<const char*, Figures> kCaptions[] = {{"scan", scanFigures},
+                                                         {"states", stateFigures},
+                                                         {"contours", contourFigures},
+                                                         {"segments", segmentFigures},
+                                                         {"views", viewFigures}};
+
+constexpr std::pair<const char*, double LayerStyle::*> kStyleNumbers[] = {
+    {"unknown_opacity", &LayerStyle::unknown_opacity},   {"free_opacity", &LayerStyle::free_opacity},
+    {"truth_opacity", &LayerStyle::truth_opacity},       {"surface_opacity", &LayerStyle::surface_opacity},
+    {"saliency_max", &LayerStyle::saliency_max},         {"label_px", &LayerStyle::label_px},
+    {"frustum_length_m", &LayerStyle::frustum_length_m}, {"line_scale", &LayerStyle::line_scale}};
+
+constexpr std::pair<const char*, int LayerStyle::*> kStyleCounts[] = {
+    {"ranked_views", &LayerStyle::ranked_views}, {"unreachable_views", &LayerStyle::unreachable_views}};
+
+/// A number of the camera and what one unit of it in the file is.
+struct CameraNumber {
+  const char* key;
+  double CameraView::*value;
+  double unit;
+};
+constexpr CameraNumber kCameraNumbers[] = {{"azimuth_deg", &CameraView::azimuth_rad, kRadians},
+                                           {"elevation_deg", &CameraView::elevation_rad, kRadians},
+                                           {"fov_deg", &CameraView::fov_rad, kRadians},
+                                           {"zoom", &CameraView::zoom, 1.0}};
+
+constexpr std::pair<const char*, std::optional<double> CameraView::*> kCameraFrame[] = {
+    {"front_m", &CameraView::front_m}, {"height_share", &CameraView::height_share}};
+
+/// Settings are validated after each key, so that the message can name its line.
+template <class Settings>
+void check(const Settings& settings, const SceneTable& table, const std::string& key) {
+  try {
+    settings.validate();
+  } catch (const std::invalid_argument& error) {
+    table.fail(key, error.what());
+  }
+}
+
+void readStyle(SceneTable table, LayerStyle& style) {
+  for (const auto& [key, member] : kStyleNumbers) {
+    style.*member = table.number(key, style.*member);
+    check(style, table, key);
+  }
+  for (const auto& [key, member] : kStyleCounts) {
+    const double count = table.number(key, style.*member);
+    if (count != std::floor(count) || std::abs(count) > 1e6)
+      table.fail(key, std::string("'") + key + "' is no count; give a whole number");
+    style.*member = static_cast<int>(count);
+    check(style, table, key);
+  }
+  const std::string axis = table.text("slice_axis", "y");
+  if (axis != "x" && axis != "y" && axis != "z")
+    table.fail("slice_axis", "'" + axis + "' is no axis; allowed: x, y, z");
+  style.slice_axis = axis[0] - 'x';
+  table.accept({"slice_at_m"});
+  if (table.has("slice_at_m")) style.slice_at_m = table.number("slice_at_m");
+  table.finish();
+}
+
+void readCamera(SceneTable table, CameraView& camera) {
+  for (const auto& [key, member, unit] : kCameraNumbers) {
+    table.accept({key});
+    if (table.has(key)) camera.*member = table.number(key) * unit;
+    check(camera, table, key);
+  }
+  for (const auto& [key, member] : kCameraFrame) {
+    table.accept({key});
+    if (table.has(key)) camera.*member = table.number(key);
+    check(camera, table, key);
+  }
+  table.finish();
+}
+
+LayerSet readLayers(const toml::table& document, const std::string& source) {
+  const toml::node* node = document.get("layers");
+  if (!node)
+    throw InputError(source, "'layers' is missing; name what is to be shown, e.g. layers = [\"surface\"]");
+  const toml::array* names = node->as_array();
+  if (!names || names->empty())
+    throw InputError(tomlPlace(source, node->source()),
+                     "'layers' is no list of names; write layers = [\"surface\"]");
+  LayerSet layers;
+  for (const toml::node& entry : *names) {
+    const auto name = entry.value<std::string>();
+    if (!entry.is_string() || !name)
+      throw InputError(tomlPlace(source, entry.source()), "'layers' must hold names in quotes");
+    const auto layer = layerNamed(*name);
+    if (!layer) {
+      std::vector<std::string> known;
+      for (const std::string_view each : layerNames()) known.emplace_back(each);
+      throw InputError(tomlPlace(source, entry.source()),
+                       "there is no layer '" + *name + "'" + suggestion(*name, known));
+    }
+    layers.set(*layer, true);
+  }
+  return layers;
+}
+
+Figures readCaption(SceneTable& table) {
+  const std::string wanted = table.text("caption", "states");
+  std::vector<std::string> known;
+  for (const auto& [name, figures] : kCaptions) {
+    if (wanted == name) return figures;
+    known.emplace_back(name);
+  }
+  table.fail("caption", "there is no caption '" + wanted + "'" + suggestion(wanted, known));
+}
+
+toml::table parse(const std::filesystem::path& file) {
+  constexpr std::uintmax_t kLargestFile = 1u << 20;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+    throw InputError(file.string(), "is no file; give a recipe file or one of the built-in recipes");
+  if (std::filesystem::file_size(file, error) > kLargestFile)
+    throw InputError(file.string(), "is too large for a recipe; allowed: 1 MiB");
+  try {
+    return toml::parse_file(file.string());
+  } catch (const toml::parse_error& broken) {
+    throw InputError(tomlPlace(file.string(), broken.source()),
+                     "broken TOML: " + std::string(broken.description()));
+  }
+}
+
+/// A table of the document, or nothing if it is not there.
+const toml::table* part(const toml::table& document, const char* name, const std::string& source) {
+  const toml::node* node = document.get(name);
+  if (node && !node->is_table())
+    throw InputError(tomlPlace(source, node->source()),
+                     std::string("'") + name + "' is no table; write [" + name + "] and its keys below");
+  return node ? node->as_table() : nullptr;
+}
+
+}  // namespace
+
+Recipe readRecipe(const std::filesystem::path& file) {
+  const std::string source = file.string();
+  const toml::table document = parse(file);
+  Recipe recipe;
+  recipe.name = file.stem().string();
+  recipe.purpose = "recipe of " + source;
+  recipe.view.layers = readLayers(document, source);
+  if (const auto* style = part(document, "style", source))
+    readStyle({*style, source, "style"}, recipe.view.style);
+  if (const auto* camera = part(document, "camera", source))
+    readCamera({*camera, source, "camera"}, recipe.view.camera);
+
+  SceneTable top(document, source, "recipe");
+  recipe.title = top.text("title", recipe.name);
+  recipe.figures = readCaption(top);
+  top.accept({"layers", "style", "camera"});
+  top.finish();
+  return recipe;
+}
+
+Recipe recipeFrom(const std::string& name_or_file) {
+  const std::filesystem::path path(name_or_file);
+  if (path.extension() == ".toml" || path.has_parent_path()) return readRecipe(path);
+  return recipeNamed(name_or_file);
+}
+
+}  // namespace vantage
