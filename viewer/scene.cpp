@@ -89,7 +89,8 @@ Eye fitEye(const CameraView& view, std::span<const Eigen::Vector3d> points, doub
         right * ((left + rightmost) / 2 * distance * tan_h) + up * ((bottom + top) / 2 * distance * tan_v);
     distance *= std::clamp(std::max(rightmost - left, top - bottom) / 2, 0.5, 2.0);
   }
-  return {focus + back * (distance / view.zoom), focus};
+  constexpr double kMargin = 1.02;  // nothing touches the edge
+  return {focus + back * (kMargin * distance / view.zoom), focus};
 }
 
 struct Scene::State {

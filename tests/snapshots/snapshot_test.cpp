@@ -93,6 +93,36 @@ TEST_F(SnapshotTest, SamePictureTwiceIsTheSameFile) {
   EXPECT_EQ(bytesOf(folder_ / "a.png"), bytesOf(folder_ / "b.png"));
 }
 
+TEST_F(SnapshotTest, EndIsTheMapAfterTheLastScan) {
+  SnapshotRequest wanted = request("end.png");
+  wanted.step = SnapshotRequest::kEnd;
+  wanted.recipes = {"states"};
+  ASSERT_EQ(takeSnapshots(run_, wanted).size(), 1u);
+  wanted.step = 3;
+  wanted.output = (folder_ / "third.png").string();
+  takeSnapshots(run_, wanted);
+  EXPECT_EQ(bytesOf(folder_ / "end.png"), bytesOf(folder_ / "third.png"));
+  wanted.recipes = {"views"};
+  EXPECT_THAT(messageOf(wanted), HasSubstr("'views': it shows planning"));
+}
+
+TEST_F(SnapshotTest, RecipesOfPlanningLeaveTheLastMapOut) {
+  SnapshotRequest wanted = request("planning-{step}.png");
+  wanted.recipes = {"views"};
+  EXPECT_EQ(takeSnapshots(run_, wanted).size(), 2u);
+}
+
+TEST_F(SnapshotTest, RecipeOfAFileIsDrawnUnderItsName) {
+  std::ofstream(folder_ / "below.toml")
+      << "layers = [\"workspace\", \"occupied\"]\n[camera]\nazimuth_deg = 20\n";
+  SnapshotRequest wanted = request("own");
+  wanted.step = 1;
+  wanted.recipes = {(folder_ / "below.toml").string()};
+  const auto files = takeSnapshots(run_, wanted);
+  ASSERT_EQ(files.size(), 1u);
+  EXPECT_EQ(files[0].filename(), "small-step01-below.png");
+}
+
 TEST_F(SnapshotTest, NamesAreFilledIn) {
   EXPECT_EQ(snapshotPath("x/{run}_{step}_{view}.png", "t", 3, "views"), fs::path("x/t_03_views.png"));
   EXPECT_EQ(snapshotPath("folder", "t", 12, "scene"), fs::path("folder/t-step12-scene.png"));

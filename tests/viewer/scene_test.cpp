@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 #include <vtkActor.h>
+#include <vtkCoordinate.h>
 #include <vtkMapper.h>
 #include <vtkPolyData.h>
 #include <vtkProperty.h>
+#include <vtkTextActor.h>
 
 #include <cstdlib>
 #include <set>
@@ -118,6 +120,38 @@ TEST(Layers, EveryColouredLayerHasALegend) {
   }
 }
 
+TEST(Layers, FirstTriedSegmentIsNumberedLastSoThatNothingCoversIt) {
+  const StepRecord& record = sharedRun().record;
+  const LayerContent content = buildLayer(Layer::SegmentRanks, sharedRun().frame(), {});
+  ASSERT_GE(content.props.size(), 2u);
+  const auto* first = vtkTextActor::SafeDownCast(content.props.back());  // 2D: drawn over the scene
+  ASSERT_NE(first, nullptr);
+  EXPECT_EQ(std::string(const_cast<vtkTextActor*>(first)->GetInput()), " 1 ");
+  const Segment& segment = record.saliency->segments.at(record.search->segments.front().segment);
+  const double* at = const_cast<vtkTextActor*>(first)->GetPositionCoordinate()->GetValue();
+  EXPECT_LT((Eigen::Vector3d(at) - segment.center_m).norm(), 1e-9);
+}
+
+TEST(Layers, SliceEndsAtTheWorkspace) {
+  const SyntheticRun& run = sharedRun();
+  for (int axis = 0; axis < 3; ++axis) {
+    LayerStyle style;
+    style.slice_axis = axis;
+    const LayerContent content = buildLayer(Layer::Slices, run.frame(), style);
+    ASSERT_NE(actorOf(content), nullptr);
+    const double* bounds = actorOf(content)->GetBounds();
+    Box drawn(Eigen::Vector3d(bounds[0], bounds[2], bounds[4]),
+              Eigen::Vector3d(bounds[1], bounds[3], bounds[5]));
+    EXPECT_LE(drawn.sizes()[axis], 1e-9);
+    Box allowed = run.header.workspace;
+    allowed.min().array() -= run.header.volume.voxel_size_m;
+    allowed.max().array() += run.header.volume.voxel_size_m;
+    EXPECT_TRUE(allowed.contains(drawn)) << "axis " << axis;
+    style.slice_at_m = allowed.max()[axis] + 0.1;
+    EXPECT_TRUE(buildLayer(Layer::Slices, run.frame(), style).props.empty()) << "axis " << axis;
+  }
+}
+
 TEST(Layers, UnknownIsTranslucentAndMoreThanTheCapIsRefused) {
   LayerStyle style;
   const LayerContent content = buildLayer(Layer::Unknown, sharedRun().frame(), style);
@@ -166,6 +200,19 @@ TEST_F(SceneTest, TwoRendersAreEqualByteForByte) {
   scene.setFrame(sharedRun().frame());
   scene.show(allLayers(), {"Title", "run", "figures"}, PageStyle::Full, 480, 300);
   EXPECT_EQ(first, other.render(scene.renderers(), 480, 300));
+}
+
+TEST_F(SceneTest, PictureGrowsUntilADistantSensorIsInIt) {
+  SyntheticRun run = sharedRun();
+  ASSERT_TRUE(run.record.depth);
+  ViewSettings view;
+  view.layers = {Layer::Sensor};
+  DepthFrame depth = *run.record.depth;
+  for (const double x_m : {-4.0, 4.0}) {
+    depth.T_world_camera.translation() = Eigen::Vector3d(x_m, 0.0, 0.5);
+    run.record.depth = std::make_shared<DepthFrame>(depth);
+    EXPECT_GT(countColor(draw(run.frame(), view, 960, 600), palette::kSensor, 12), 40) << x_m;
+  }
 }
 
 TEST_F(SceneTest, MissingProductsAreLeftOut) {

@@ -67,7 +67,8 @@ LayerContent sensorLayer(const SceneFrame& frame, const LayerStyle& style) {
   const std::optional<Pose> pose = sensorPose(frame.record);
   if (!pose) return content;
   content.props.push_back(bodyActor(*pose));
-  content.must_see.push_back(pose->translation());
+  for (const double side_m : {-0.07, 0.07})
+    content.must_see.push_back(*pose * Eigen::Vector3d(side_m, 0.0, -0.05));
   LineSet frustum;
   addFrustum(frustum, frame.header.camera, *pose, 0.45);
   content.props.push_back(lineActor(frustum, palette::kSensor, 2.0 * style.line_scale));

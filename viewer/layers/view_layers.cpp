@@ -83,7 +83,10 @@ LayerContent rankedViewsLayer(const SceneFrame& frame, const LayerStyle& style) 
       addCross(barred, view.T_world_camera, 0.014);
     } else if (shown++ < style.ranked_views) {
       const std::size_t before = colored.pieces.size();
-      content.must_see.push_back(view.T_world_camera.translation());
+      const FrustumCorners corners =
+          frustumCorners(frame.header.camera, view.T_world_camera, style.frustum_length_m);
+      content.must_see.push_back(corners.apex);
+      content.must_see.insert(content.must_see.end(), corners.image.begin(), corners.image.end());
       addFrustum(colored, frame.header.camera, view.T_world_camera, style.frustum_length_m);
       colored.colors.insert(colored.colors.end(), colored.pieces.size() - before,
                             colorAt(ColorMap::Viridis, range.at(view.gain)));
