@@ -25,14 +25,16 @@ std::string percent(double share) {
   return format(share > 0.0 && share < 0.095 ? "%.1f %%" : "%.0f %%", 100.0 * share);
 }
 
-/// How a search is called in a sentence: "segment 7 (saliency 0.51)".
-std::string nameOf(const StepRecord& record, const SegmentSearch& search) {
-  if (search.segment < 0 || !record.saliency ||
-      search.segment >= static_cast<int>(record.saliency->segments.size())) {
-    return "contour points without a segment";
-  }
-  return "segment " + std::to_string(record.saliency->segments[search.segment].label) +
-         format(" (saliency %.2f)", search.saliency);
+/// How a search is called in a sentence, by its place in the order as the pictures number it: "no. 1 (label
+/// 7, saliency 0.51)".
+std::string nameOf(const StepRecord& record, std::size_t search) {
+  const SegmentSearch& segment = record.search->segments[search];
+  const std::string number = "no. " + std::to_string(search + 1);
+  if (segment.segment < 0 || !record.saliency ||
+      segment.segment >= static_cast<int>(record.saliency->segments.size()))
+    return number + " (contour points without a segment)";
+  const std::string label = std::to_string(record.saliency->segments[segment.segment].label);
+  return number + " (label " + label + format(", saliency %.2f)", segment.saliency);
 }
 
 /// "7 in collision, 5 out of reach" among the views that rank above the chosen one.
@@ -145,7 +147,7 @@ std::string segmentFigures(const SceneFrame& frame) {
   const std::size_t shown = std::min<std::size_t>(searches.size(), 4);
   for (std::size_t i = 0; i < shown; ++i) {
     if (i > 0) text += "; ";
-    text += nameOf(record, searches[i]) + " with " + plural(searches[i].poses_generated, "pose");
+    text += nameOf(record, i) + " with " + plural(searches[i].poses_generated, "pose");
   }
   return text + (searches.size() > shown ? "; ..." : ".");
 }
@@ -169,8 +171,8 @@ std::string viewFigures(const SceneFrame& frame) {
   if (chosen.search > 0) text = plural(chosen.search, "more salient segment") + " had no view; ";
   if (plannerOf(frame) == "standard") {
     text = plural(search.counts.poses_scored, "view") + " scored over the whole workspace. ";
-  } else if (segment) {
-    text += (text.empty() ? "Tried first: " : "then ") + nameOf(record, *segment) + ". ";
+  } else if (chosen.search < search.segments.size()) {
+    text += (text.empty() ? "Segment tried first: " : "then ") + nameOf(record, chosen.search) + ". ";
   }
   text += "View " + std::to_string(chosen.id) + " gains " + grouped(static_cast<std::uint64_t>(chosen.gain)) +
           " rays (" + plural(chosen.gain_voxels, "voxel") + "), above " + limit + ".";

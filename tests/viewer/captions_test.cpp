@@ -24,7 +24,9 @@ TEST(Captions, SayWhyTheViewWasChosen) {
   const std::string text = viewFigures(run.frame());
   EXPECT_THAT(text, HasSubstr("View " + std::to_string(run.record.search->chosen->id) + " gains"));
   EXPECT_THAT(text, HasSubstr("threshold of 100 rays"));
-  EXPECT_THAT(text, HasSubstr("saliency"));
+  const std::size_t chosen = run.record.search->chosen->search;
+  EXPECT_THAT(text, HasSubstr("no. " + std::to_string(chosen + 1) + " (label "));
+  EXPECT_THAT(text, HasSubstr(", saliency "));
   EXPECT_THAT(stepLine(run.frame()), HasSubstr("step 1"));
   EXPECT_THAT(contourFigures(run.frame()),
               HasSubstr(grouped(run.record.contours->voxels.size()) + " contour voxel"));
@@ -42,6 +44,15 @@ TEST(Captions, CountUnknownAsTheGridDoes) {
   const std::uint64_t unknown = run.states.count(VoxelState::Unknown, run.header.workspace);
   ASSERT_GT(unknown, 0u);
   EXPECT_THAT(stateFigures(run.frame()), HasSubstr("Unknown: " + grouped(unknown) + " of "));
+}
+
+TEST(Captions, StandardPlannerHasNoSegmentsToSpeakOf) {
+  test::SyntheticRun run = test::makeSyntheticRun();
+  run.header.planner = run.record.planner = "standard";
+  run.record.saliency.reset();
+  EXPECT_THAT(segmentFigures(run.frame()), HasSubstr("does not use segments"));
+  EXPECT_THAT(viewFigures(run.frame()), HasSubstr("scored over the whole workspace. View "));
+  EXPECT_THAT(viewFigures(run.frame()), testing::Not(HasSubstr("tried first")));
 }
 
 TEST(Captions, EmptyRunHasSentencesToo) {
