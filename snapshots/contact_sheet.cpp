@@ -10,7 +10,7 @@ namespace vantage {
 namespace {
 
 // Pixels.
-constexpr int kTileWidth = 480, kTileHeight = 330, kCaption = 100, kGap = 14, kMargin = 20;
+constexpr int kTileWidth = 480, kTileHeight = 330, kCaption = 124, kGap = 14, kMargin = 20;
 constexpr int kHead = 96, kRowHead = 74, kLegend = 310;
 constexpr int kInsetWidth = 118, kScaleWidth = 170;
 
