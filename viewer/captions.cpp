@@ -93,7 +93,8 @@ std::string scanFigures(const SceneFrame& frame) {
   std::uint64_t valid = 0;
   for (const float depth : record.depth->depth.depth_m) valid += DepthImage::valid(depth);
   const std::uint64_t pixels = std::max<std::size_t>(1, record.depth->depth.depth_m.size());
-  const Eigen::Vector3d eye = record.depth->T_world_camera.translation();
+  const Eigen::Vector3d eye =  // in whole centimetres; adding 0 takes the sign off zero
+      (record.depth->T_world_camera.translation() * 100.0).array().round() / 100.0 + 0.0;
   std::string text = plural(std::max<std::size_t>(1, record.scan.size()), "frame") + " fused";
   if (record.depth->frame >= 0) text += format(" (recorded frame %d)", record.depth->frame);
   text += format("; the last one from (%.2f, %.2f, %.2f) m has %s of its pixels valid.", eye.x(), eye.y(),
