@@ -74,10 +74,10 @@ void placeDataset(Dataset& dataset, const Pose& T_world_dataset);
 /// from the measured points (2nd to 98th percentile of each axis, over the 5 cm cells that a quarter of up to
 /// 60 frames saw); a volume that covers it (5 cm margin) and the recorded cameras (15 cm) in at most 40 M
 /// voxels, the truncation, the grouping distance and the segmentation's voxels growing with the voxel size; 3
-/// initial frames, one frame per view, no tilt; no view lower than 15 cm below the lowest recorded one,
-/// obstacles and paths only reported. Views are generated at the median measured depth. Values that differ
-/// from the program's defaults have the origin "data set". \throws InputError if no frame holds a valid pixel
-/// and no bounds are stated.
+/// initial frames, one frame per view, no tilt, no start bubble; no view lower than 15 cm below the lowest
+/// recorded one, obstacles and paths only reported. Views are generated at the median measured depth. Values
+/// that differ from the program's defaults have the origin "data set". \throws InputError if no frame holds a
+/// valid pixel and no bounds are stated.
 Settings settingsForDataset(const Dataset& dataset);
 
 }  // namespace vantage

@@ -159,7 +159,8 @@ void setScan(Settings& settings, const Dataset& dataset) {
   scan.initial_frames = static_cast<int>(std::min<std::size_t>(3, dataset.frames.size()));
   scan.frames = 1;
   scan.tilt_rad = 0.0;
-  scan.clear_radius_m = 0.2;
+  scan.clear_radius_m =
+      0.0;  // no path starts here, and a bubble that was not seen would be something to look at
   scan.scene_center_m = (settings.exploration.workspace.center() * 1e3).array().round() / 1e3;
 }
 

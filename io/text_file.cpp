@@ -43,7 +43,10 @@ void saveFile(const std::filesystem::path& path, std::string_view bytes) {
   std::ofstream file(path, std::ios::binary);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();
-  if (!file) throw std::runtime_error(path.string() + ": cannot be written in full; check the free space");
+  if (file) return;
+  std::error_code error;
+  if (std::filesystem::is_regular_file(path, error)) std::filesystem::remove(path, error);  // no half file
+  throw std::runtime_error(path.string() + ": cannot be written in full; check the free space");
 }
 
 std::string atLine(const std::filesystem::path& path, int line) {

@@ -291,8 +291,10 @@ void writeVolume(const fs::path& path, const TsdfVolume& volume) {
   writer->SetHeaderTypeToUInt64();
   writer->SetCompressorTypeToZLib();
   writer->SetCompressionLevel(1);
-  if (writer->Write() != 1 || !quiet.messages().silent())
-    throw std::runtime_error(path.string() + ": cannot be written in full: " + quiet.messages().firstLine());
+  if (writer->Write() == 1 && quiet.messages().silent()) return;
+  std::error_code error;
+  if (fs::is_regular_file(path, error)) fs::remove(path, error);  // no half file
+  throw std::runtime_error(path.string() + ": cannot be written in full; check the free space");
 }
 
 }  // namespace vantage

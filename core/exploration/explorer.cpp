@@ -54,8 +54,7 @@ struct Explorer::State {
   StateGrid states;
   MapMetricsCounter metrics;
   std::vector<StepObserver> observers;
-  std::vector<Pose> executed;
-  std::vector<Eigen::Vector3d> disappointing;
+  Exclusions exclusions;
   std::uint64_t frames_taken = 0;
 
   void publish(StepRecord& record, Stage stage) {
@@ -71,7 +70,6 @@ struct Explorer::State {
   void plan(StepRecord& record, const RunControl& control);
   void measureCoverage(StepRecord& record) const;
   void markTowardObject(StepRecord& record) const;
-  static void reportVerdict(StepRecord& record, const MotionPlan& verdict);
   void realise(StepRecord& previous, const StepRecord& scanned, std::uint64_t unknown_before);
   std::uint64_t unknownInRegion(const StepRecord& record) const;
 };
@@ -134,18 +132,13 @@ void Explorer::State::plan(StepRecord& record, const RunControl& control) {
   std::uint64_t tried = 0;
   MotionPlan reported;  // where the verdict is only reported: of the last pose asked for, i.e. the chosen one
   const ReachPose reach = [&](const Pose& pose) {
-    MotionPlan plan =
-        robot.plan(pose, (config.seed << 32) + static_cast<std::uint64_t>(record.step) * 1000003 + tried++);
-    // Where the sensor cannot be at all no view is judged; whether something is in its way is only reported.
-    if (config.enforce_reachability || plan.verdict == Reachability::OutOfReach) return plan;
-    reported = plan;
-    plan.verdict = Reachability::Reachable;
-    return plan;
+    return judged(robot.plan(pose, pathSeed(config.seed, record.step, tried++)), config.enforce_reachability,
+                  reported);
   };
   const auto publish_stage = [&](Stage stage) {
     if (stage == Stage::Surface) measureCoverage(record);
     if (stage == Stage::Evaluation) {
-      if (!config.enforce_reachability) reportVerdict(record, reported);
+      if (!config.enforce_reachability) reportMotion(record, reported);
       markTowardObject(record);
     }
     publish(record, stage);
@@ -155,8 +148,8 @@ void Explorer::State::plan(StepRecord& record, const RunControl& control) {
                             .camera = camera.model(),
                             .workspace = config.workspace,
                             .config = config.planner,
-                            .executed = executed,
-                            .disappointing = disappointing};
+                            .executed = exclusions.executed,
+                            .disappointing = exclusions.disappointing};
   planView(record, input, reach, publish_stage, control);
 }
 
@@ -171,15 +164,6 @@ void Explorer::State::markTowardObject(StepRecord& record) const {
   record.toward_object = truth->objectDistance(point.position_m) <= kObjectMargin_m;
 }
 
-/// Puts the true verdict in the place of the one that let the pose be chosen.
-void Explorer::State::reportVerdict(StepRecord& record, const MotionPlan& verdict) {
-  if (!record.hasView()) return;
-  ViewSearch search = *record.search;
-  search.chosen->path = verdict;
-  search.segments[search.chosen->search].scores[search.chosen->rank].reachability = verdict.verdict;
-  record.search = share(std::move(search));
-}
-
 std::uint64_t Explorer::State::unknownInRegion(const StepRecord& record) const {
   const SegmentSearch& segment = record.search->segments[record.search->chosen->search];
   if (!config.planner.segment_by_segment) return states.count(VoxelState::Unknown, config.workspace);
@@ -189,16 +173,9 @@ std::uint64_t Explorer::State::unknownInRegion(const StepRecord& record) const {
 /// Realised gain: a voxel once seen stays seen, so it is the drop of the unknown in the region
 /// (evaluation.md, section 2).
 void Explorer::State::realise(StepRecord& previous, const StepRecord& scanned, std::uint64_t unknown_before) {
-  const ChosenView& chosen = *previous.search->chosen;
   previous.realised_voxels = unknown_before - unknownInRegion(previous);
-  if (isReplay()) {
-    previous.served = scanned.scan.back();
-    executed.push_back(scanned.scan.back().T_world_camera);
-  }
-  const GainConfig& gain = config.planner.gain;
-  if (gain.exclude_disappointing && static_cast<double>(*previous.realised_voxels) <
-                                        gain.disappointing_share * static_cast<double>(chosen.gain_voxels))
-    disappointing.push_back(previous.contours->points[chosen.contour_point].position_m);
+  if (isReplay()) previous.served = scanned.scan.back();
+  exclusions.add(previous, config.planner.gain);
   publish(previous, Stage::Realised);
 }
 
@@ -256,7 +233,6 @@ ExplorationResult Explorer::run(const RunControl& control) {
         const ChosenView& chosen = *record.search->chosen;
         if (chosen.path.verdict == Reachability::Reachable)
           record.timings.motion = s.robot.execute(chosen.path);
-        s.executed.push_back(chosen.T_world_camera);
         s.publish(record, Stage::Motion);
       }
       s.publish(record, Stage::Done);

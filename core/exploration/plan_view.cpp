@@ -18,6 +18,31 @@ auto timed(std::optional<double>& seconds, Work&& work) {
 
 }  // namespace
 
+MotionPlan judged(MotionPlan plan, bool enforce, MotionPlan& reported) {
+  if (enforce || plan.verdict == Reachability::OutOfReach) return plan;
+  reported = plan;
+  plan.verdict = Reachability::Reachable;
+  return plan;
+}
+
+void reportMotion(StepRecord& record, const MotionPlan& reported) {
+  if (!record.hasView()) return;
+  ViewSearch search = *record.search;
+  search.chosen->path = reported;
+  record.search = std::make_shared<const ViewSearch>(std::move(search));
+}
+
+void Exclusions::add(const StepRecord& record, const GainConfig& config) {
+  if (!record.hasView()) return;
+  const ChosenView& chosen = *record.search->chosen;
+  executed.push_back(chosen.T_world_camera);
+  if (record.served) executed.push_back(record.served->T_world_camera);
+  if (config.exclude_disappointing && record.realised_voxels &&
+      static_cast<double>(*record.realised_voxels) <
+          config.disappointing_share * static_cast<double>(chosen.gain_voxels))
+    disappointing.push_back(record.contours->points[chosen.contour_point].position_m);
+}
+
 void planView(StepRecord& record, const PlanViewInput& input, const ReachPose& reach,
               const std::function<void(Stage)>& publish, const RunControl& control) {
   const ContourPlannerConfig& config = input.config;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "core/exploration/step_record.h"
 #include "core/run_control.h"
@@ -17,6 +19,26 @@ struct PlanViewInput {
   const ContourPlannerConfig& config;
   std::span<const Pose> executed = {};                  ///< poses taken so far (D-B15)
   std::span<const Eigen::Vector3d> disappointing = {};  ///< contour points not to be offered again (D-B33)
+};
+
+/// Seed of the path planner for the n-th pose tried in a step.
+inline std::uint64_t pathSeed(std::uint64_t run_seed, int step, std::uint64_t tried) {
+  return (run_seed << 32) + static_cast<std::uint64_t>(step) * 1000003 + tried;
+}
+
+/// Where the sensor cannot be at all (OutOfReach) no view is judged; with `enforce` off, on recorded data,
+/// other obstacles are only reported: the pose counts as reachable and `reported` keeps the true plan.
+MotionPlan judged(MotionPlan plan, bool enforce, MotionPlan& reported);
+
+/// Puts the true plan of a chosen pose in the place of the one that let it be chosen (see judged()).
+void reportMotion(StepRecord& record, const MotionPlan& reported);
+
+/// Poses and contour points that later steps leave out because of a finished step (D-B15, D-B33).
+struct Exclusions {
+  std::vector<Pose> executed;
+  std::vector<Eigen::Vector3d> disappointing;
+  /// Takes over a step at Stage::Realised, or at Stage::Done if it was the last.
+  void add(const StepRecord& record, const GainConfig& config);
 };
 
 /// Algorithm 1, Monica & Aleotti 2017, one named call per stage: fills the planning products and timings of

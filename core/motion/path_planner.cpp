@@ -111,6 +111,12 @@ void FreeFlyerConfig::validate() const {
   requireInRange("robot.speed_m_per_s", speed_m_per_s, 1e-4, 1e3);
 }
 
+std::string_view tokenOf(Reachability r) {
+  constexpr std::string_view kTokens[kReachabilityCount] = {
+      "reachable", "out_of_reach", "in_collision", "not_connected", "no_path", "timed_out", "not_checked"};
+  return kTokens[static_cast<int>(r)];
+}
+
 std::string_view toString(Reachability r) {
   switch (r) {
     case Reachability::Reachable:

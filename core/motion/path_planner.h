@@ -38,6 +38,9 @@ enum class Reachability : std::uint8_t {
 };
 /// The reason as a person reads it, e.g. "the body would touch occupied or unknown space".
 std::string_view toString(Reachability r);
+/// One word for tables: `reachable`, `out_of_reach`, `in_collision`, `not_connected`, `no_path`, `timed_out`,
+/// `not_checked`.
+std::string_view tokenOf(Reachability r);
 inline constexpr int kReachabilityCount = 7;
 
 /// A motion of the sensor, or why there is none.

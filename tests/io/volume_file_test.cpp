@@ -148,7 +148,7 @@ TEST_F(VolumeFile, DamagedFilesAreRefusedOrReadNeverWorse) {
 
 TEST_F(VolumeFile, PlacesThatCannotBeWrittenAreNamed) {
   EXPECT_THAT(errorOf([&] { writeVolume(folder_ / "no/v.vti", randomVolume()); }),
-              HasSubstr("v.vti: cannot be written"));
+              HasSubstr("v.vti: cannot be created"));
   EXPECT_THROW(writeVolume(folder_ / "v.vti", TsdfVolume{}), std::invalid_argument);
 }
 

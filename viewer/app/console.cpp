@@ -22,12 +22,13 @@ bool g_log_json = false;  // set once by setUpLog(), before any work starts
 /// Ends the program at once, as a shell expects of one that was interrupted.
 constexpr int kInterruptedCode = 130;
 
-/// SIGINT and SIGTERM as a set.
+/// SIGINT, SIGTERM and SIGHUP as a set.
 sigset_t stopSignals() {
   sigset_t set;
   sigemptyset(&set);
   sigaddset(&set, SIGINT);
   sigaddset(&set, SIGTERM);
+  sigaddset(&set, SIGHUP);
   return set;
 }
 
@@ -45,13 +46,16 @@ StopTarget& stopTarget() {
 
 void watchStopSignals() {
   const sigset_t set = stopSignals();
+  std::signal(SIGXFSZ, SIG_IGN);              // a file that grows too large is a failed write, not a death
   pthread_sigmask(SIG_BLOCK, &set, nullptr);  // threads made later inherit this
   stopTarget();
   std::thread([set] {
     for (int signal = 0; sigwait(&set, &signal) == 0;) {
       const std::lock_guard lock(stopTarget().mutex);
       std::stop_source* stop = stopTarget().stop;
-      if (!stop || !stop->request_stop()) _exit(kInterruptedCode);  // nothing to save, or asked twice
+      if (stop && stop->request_stop()) continue;
+      std::fputs("vantage: interrupted; nothing more was written\n", stderr);
+      _exit(kInterruptedCode);  // nothing to save, or asked twice
     }
   }).detach();
 }
@@ -66,7 +70,7 @@ void setUpLog(const GlobalOptions& global) {
 }
 
 void say(const GlobalOptions& global, const std::string& line) {
-  if (global.quiet) return;
+  if (global.quiet || global.json == "-") return;  // "-": standard output belongs to the JSON
   std::printf("%s\n", line.c_str());
   std::fflush(stdout);
 }

@@ -15,8 +15,9 @@ class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Takes over SIGINT and SIGTERM for the whole program: a console that exists is asked to stop, otherwise (or
-/// when asked twice) the program ends at once with 130. Call it before any other thread is made.
+/// Takes over SIGINT, SIGTERM and SIGHUP for the whole program: a console that exists is asked to stop,
+/// otherwise (or when asked twice) the program ends at once with 130. Call it before any other thread is
+/// made.
 void watchStopSignals();
 
 /// Routes log lines to standard error: warnings always, details with -v, as JSON objects with --log-json.

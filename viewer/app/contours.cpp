@@ -18,6 +18,8 @@ struct ContourOptions {
 };
 
 int contours(const GlobalOptions& global, const ContourOptions& options) {
+  requireDistinctFiles(
+      {{"MAP", options.map}, {"-o", options.voxels}, {"--points", options.points}, {"--json", global.json}});
   const LoadedMap map = loadMap(global, options.map);
   const Contours found = extractContours(map.volume, map.settings.exploration.planner.contours);
   writeContourVoxels(options.voxels, map.volume.geometry(), found.voxels);

@@ -7,6 +7,7 @@
 #include "core/gpu/egl_context.h"
 #include "io/json_summary.h"
 #include "io/run_file.h"
+#include "io/text_file.h"
 #include "snapshots/snapshot.h"
 #include "viewer/app/command.h"
 #include "viewer/app/console.h"
@@ -63,8 +64,25 @@ void takePictures(const GlobalOptions& global, const ExploreOptions& options, Co
   say(global, fmt::format("{} pictures in {}", files.size(), options.snapshots));
 }
 
+/// What cannot be written or drawn is said before the work.
+void checkOutputs(const GlobalOptions& global, const ExploreOptions& options) {
+  if (options.run == "-") throw InputError("-o -", "a run cannot be streamed; give a file name");
+  requireDistinctFiles({{"input", options.input},
+                        {"-o", options.run},
+                        {"--json", global.json},
+                        {"--snapshots", options.snapshots}});
+  if (!global.json.empty() && global.json != "-") requireCreatable(global.json);
+  if (options.snapshots.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(options.snapshots, error);
+  if (!std::filesystem::is_directory(options.snapshots))
+    throw InputError("--snapshots " + options.snapshots,
+                     "is no folder and cannot be made one; choose another name");
+  const EglContext probe;
+}
+
 int explore(const GlobalOptions& global, ExploreOptions options) {
-  if (!options.snapshots.empty()) EglContext probe;  // no pictures, no point: say so before the work
+  checkOutputs(global, options);
   ExplorationInput input = openExplorationInput(global, options.input, options.planner, options.steps);
   if (options.run.empty()) options.run = input.name + ".vantage";
   Console console(global);
@@ -79,6 +97,7 @@ int explore(const GlobalOptions& global, ExploreOptions options) {
     if (record->stage == Stage::Realised) {
       writer.setRealised(*record);
       json.setRealised(*record);
+      if (record->served) say(global, servedText(*record));
     }
     if (record->stage != Stage::Done) return;
     writer.write(*record);

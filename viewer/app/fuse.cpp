@@ -24,6 +24,9 @@ struct FuseOptions {
   std::vector<double> bounds;
 };
 
+/// Truncation in voxels where only the voxel size is given (spec of the contour planner, section 10).
+constexpr double kTruncationVoxels = 5.12;
+
 /// Half-open range of positions in the sequence from "A:B"; either side may be left out.
 std::pair<std::size_t, std::size_t> frameRange(const std::string& text, std::size_t count) {
   if (text.empty()) return {0, count};
@@ -73,13 +76,27 @@ GridGeometry resampled(const GridGeometry& geometry, double voxel_size_m) {
 }
 
 int fuse(const GlobalOptions& global, const FuseOptions& options) {
+  requireDistinctFiles({{"DATASET", options.dataset},
+                        {"-o", options.output},
+                        {"--mesh", options.mesh},
+                        {"--cloud", options.cloud},
+                        {"--json", global.json}});
+  requireEnding("-o", options.output, {".vti"});
+  if (!options.mesh.empty()) requireEnding("--mesh", options.mesh, {".ply"});
+  if (!options.cloud.empty()) requireEnding("--cloud", options.cloud, {".pcd", ".ply"});
+  if (options.voxel_size_m && !(*options.voxel_size_m >= 1e-4 && *options.voxel_size_m <= 1.0))
+    throw InputError("--voxel-size",
+                     fmt::format("{} m is out of range; allowed: 0.0001 .. 1", *options.voxel_size_m));
   Dataset dataset = openDataset(options.dataset);
   Settings settings = datasetSettings(global, dataset);
   GridGeometry geometry = settings.exploration.volume;
   FusionConfig fusion = settings.exploration.fusion;
   if (options.voxel_size_m) geometry = resampled(geometry, *options.voxel_size_m);
   if (!options.bounds.empty()) geometry = boundedVolume(options.bounds, geometry.voxel_size_m);
-  if (options.truncation_m) fusion.truncation_m = *options.truncation_m;
+  if (options.truncation_m)
+    fusion.truncation_m = *options.truncation_m;
+  else
+    fusion.truncation_m = std::max(fusion.truncation_m, kTruncationVoxels * geometry.voxel_size_m);
   fusion.validate(geometry.voxel_size_m);
 
   const auto [first, last] = frameRange(options.frames, dataset.frames.size());
@@ -124,7 +141,10 @@ void addFuse(CLI::App& app, const GlobalOptions& global, Action& action) {
   command->add_option("--frames", o->frames, "Positions in the sequence, first and one past the last")
       ->type_name("A:B");
   command->add_option("--voxel-size", o->voxel_size_m, "Voxel edge, metres")->type_name("M");
-  command->add_option("--truncation", o->truncation_m, "Truncation distance, metres")->type_name("M");
+  command
+      ->add_option("--truncation", o->truncation_m,
+                   "Truncation distance, metres (default: at least 5.12 voxels)")
+      ->type_name("M");
   command->add_option("--bounds", o->bounds, "Mapped box, metres, rounded outward to whole voxels")
       ->delimiter(',')
       ->expected(6)

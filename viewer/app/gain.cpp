@@ -2,6 +2,7 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 
@@ -11,6 +12,7 @@
 #include "viewer/app/command.h"
 #include "viewer/app/console.h"
 #include "viewer/app/inputs.h"
+#include "viewer/app/json_output.h"
 
 namespace vantage::app {
 namespace {
@@ -42,6 +44,11 @@ PinholeCamera chooseCamera(const GainOptions& options, const PinholeCamera& conf
 
 VisibilityQuery makeQuery(const GainOptions& options) {
   VisibilityQuery query;
+  for (const auto* numbers : {&options.sphere, &options.bounds})
+    for (const double x : *numbers)
+      if (!std::isfinite(x))
+        throw InputError(numbers == &options.sphere ? "--sphere" : "--bounds",
+                         "holds something that is no finite number");
   if (!options.sphere.empty()) {
     if (!(options.sphere[3] >= 0))
       throw InputError("--sphere", "the radius is negative; give x,y,z,r in metres");
@@ -59,6 +66,8 @@ VisibilityQuery makeQuery(const GainOptions& options) {
 }
 
 int gain(const GlobalOptions& global, const GainOptions& options) {
+  requireDistinctFiles(
+      {{"MAP", options.map}, {"VIEWS", options.views}, {"-o", options.output}, {"--json", global.json}});
   const LoadedMap map = loadMap(global, options.map);
   const std::vector<ViewRow> views = readViews(options.views);
   const PinholeCamera camera = chooseCamera(options, map.settings.camera);
@@ -79,6 +88,9 @@ int gain(const GlobalOptions& global, const GainOptions& options) {
   });
   if (console.interrupted()) throw Interrupted(options.output + ": interrupted; nothing was written");
   writeGains(options.output, rows);
+  writeJson(
+      global.json,
+      {{"views", rows.size()}, {"rays_per_view", camera.width * camera.height}, {"count", options.count}});
   if (options.output != "-")
     say(global, fmt::format("{} views, {} rays each, counted as {}", rows.size(),
                             camera.width * camera.height, options.count));

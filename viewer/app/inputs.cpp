@@ -117,6 +117,10 @@ LoadedMap loadRunMap(const GlobalOptions& global, const RunMap& map) {
   const int step = findStep(run, map);
   loaded.volume = TsdfVolume(run.header().volume);
   run.advanceVolume(loaded.volume, 0, step);
+  loaded.step = step;
+  for (const int earlier : run.steps())
+    if (earlier < step)
+      loaded.exclusions.add(run.step(earlier, RunDetail::NoVolume), loaded.settings.exploration.planner.gain);
   loaded.record =
       step == run.closingStep() ? run.closing(RunDetail::NoVolume) : run.step(step, RunDetail::NoVolume);
   return loaded;
@@ -143,6 +147,10 @@ Settings commandSettings(const GlobalOptions& global) {
 Settings sceneSettings(const GlobalOptions& global, const std::string& scene) {
   Settings settings;
   applyUserConfig(settings);
+  if (std::filesystem::is_directory(scene)) {
+    Dataset dataset = openDataset(scene);
+    return datasetSettings(global, dataset);
+  }
   if (!scene.empty()) applyScene(settings, loadScene(scene));
   applyCommandLine(settings, global);
   settings.validate();
@@ -168,6 +176,27 @@ LoadedMap loadMap(const GlobalOptions& global, const std::string& map) {
   loaded.volume = readVolume(map, warnings);
   for (const std::string& warning : warnings) warn(warning);
   return loaded;
+}
+
+void requireDistinctFiles(const std::vector<std::pair<std::string, std::string>>& files) {
+  const auto place = [](const std::string& path) {
+    std::error_code error;
+    const auto absolute = std::filesystem::weakly_canonical(path.substr(0, path.find('#')), error);
+    return path == "-" || error ? path : absolute.string();
+  };
+  for (std::size_t a = 0; a < files.size(); ++a)
+    for (std::size_t b = a + 1; b < files.size(); ++b)
+      if (!files[a].second.empty() && place(files[a].second) == place(files[b].second))
+        throw InputError(files[b].first + " " + files[b].second,
+                         "is the same file as " + files[a].first + "; choose another name");
+}
+
+void requireEnding(const std::string& option, const std::string& path,
+                   const std::vector<std::string>& endings) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return;
+  throw InputError(option + " " + path,
+                   fmt::format("has another kind of name; allowed endings: {}", fmt::join(endings, ", ")));
 }
 
 int threadsInUse() {

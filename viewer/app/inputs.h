@@ -3,7 +3,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "core/exploration/plan_view.h"
 #include "core/exploration/ports.h"
 #include "core/geometry/triangle_mesh.h"
 #include "io/config_file.h"
@@ -43,13 +46,23 @@ Settings datasetSettings(const GlobalOptions& global, Dataset& dataset);
 /// A map from a file and what is known about where it came from.
 struct LoadedMap {
   TsdfVolume volume;
-  std::optional<StepRecord> record;  ///< of RUN#STEP, for a step that planned
+  std::optional<StepRecord> record;  ///< of RUN#STEP
+  int step = 1;                      ///< of RUN#STEP
+  Exclusions exclusions;             ///< what the run's earlier steps left out
   Settings settings;                 ///< commandSettings(), over the run's own configuration for RUN#STEP
 };
 
 /// MAP: a `.vti` file, `RUN.vantage` (its last map), `RUN.vantage#STEP` or `RUN.vantage#end`. Warnings are
 /// printed. \throws InputError
 LoadedMap loadMap(const GlobalOptions& global, const std::string& map);
+
+/// Refuses outputs that would overwrite an input or each other. Pairs of a name for messages and a path;
+/// empty paths do not count. \throws InputError
+void requireDistinctFiles(const std::vector<std::pair<std::string, std::string>>& files);
+
+/// Refuses a file name without one of these endings. \throws InputError
+void requireEnding(const std::string& option, const std::string& path,
+                   const std::vector<std::string>& endings);
 
 /// Worker threads that parallel work uses now.
 int threadsInUse();

@@ -36,7 +36,14 @@ void addGlobalOptions(CLI::App& app, GlobalOptions& global) {
       ->check(CLI::Range(0, 1024))
       ->type_name("N");
   app.add_option("--compute", global.compute, "Compute engine")->check(CLI::IsMember({"auto", "cpu"}));
-  app.add_option("--seed", global.seed, "Seed of noise and path planning")->type_name("N");
+  app.add_option("--seed", global.seed, "Seed of noise and path planning")
+      ->check([](const std::string& text) {
+        const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+        return digits && text.size() < 16
+                   ? ""
+                   : "'" + text + "' is no seed; give a whole number from 0 to 999999999999999";
+      })
+      ->type_name("N");
   app.add_option("--config", global.config_files, "Configuration file, applied over the scene; repeatable")
       ->type_name("FILE.toml")
       ->allow_extra_args(false);
@@ -116,6 +123,9 @@ int parseAndRun(int argc, char** argv) {
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     command->allow_extras();
     command->fallthrough();
+    command->footer(command->get_footer() +
+                    "\nOptions of every command (--set, --config, --json, --threads, --seed, -q, -v ...): "
+                    "vantage --help");
   }
   for (int a = 0; a < argc; ++a) global.command_line += (a ? " " : "") + std::string(a ? argv[a] : "vantage");
 
@@ -146,7 +156,10 @@ int parseAndRun(int argc, char** argv) {
       global.threads > 0 ? global.threads : static_cast<int>(std::thread::hardware_concurrency());
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::max(1, threads));
   setUpLog(global);
-  return action();
+  const int code = action();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout))
+    return fail(kFailed, "standard output: cannot be written in full; check the free space");
+  return code;
 }
 
 }  // namespace

@@ -19,14 +19,19 @@ struct PlanOptions {
 };
 
 /// Reachability without a robot: from the pose of a recorded step a path is planned; for a map alone the
-/// sensor only has to fit.
-ReachPose makeReach(const CollisionGrid& grid, const FreeFlyerConfig& flyer, const std::optional<Pose>& start,
-                    std::uint64_t seed) {
-  return [&grid, flyer, start, seed, tried = std::uint64_t{0}](const Pose& pose) mutable {
-    if (start) return planPath(grid, *start, pose, flyer, (seed << 32) + tried++);
+/// sensor only has to fit. Where verdicts are only reported, the last one is kept in `reported`.
+ReachPose makeReach(const CollisionGrid& grid, const LoadedMap& map, MotionPlan& reported) {
+  std::optional<Pose> start;
+  if (map.record && !map.record->scan.empty()) start = map.record->scan.back().T_world_camera;
+  return [&grid, &reported, start, step = map.step, flyer = map.settings.free_flyer,
+          seed = map.settings.exploration.seed, enforce = map.settings.exploration.enforce_reachability,
+          tried = std::uint64_t{0}](const Pose& pose) mutable {
     MotionPlan plan;
-    plan.verdict = checkPosition(grid, pose.translation(), flyer);
-    return plan;
+    if (start)
+      plan = planPath(grid, *start, pose, flyer, pathSeed(seed, step, tried++));
+    else
+      plan.verdict = checkPosition(grid, pose.translation(), flyer);
+    return judged(std::move(plan), enforce, reported);
   };
 }
 
@@ -41,7 +46,7 @@ std::vector<PlanRow> rankedViews(const StepRecord& record, const ContourViewConf
       row.segment = search.segment >= 0 ? record.saliency->segments[search.segment].label : 0;
       row.saliency = search.saliency;
       row.gain = score.gain;
-      row.reachability = toString(score.reachability);
+      row.reachability = tokenOf(score.reachability);
       row.chosen = record.hasView() && record.search->chosen->id == score.id;
       rows.push_back(row);
     }
@@ -49,32 +54,36 @@ std::vector<PlanRow> rankedViews(const StepRecord& record, const ContourViewConf
 }
 
 int plan(const GlobalOptions& global, const PlanOptions& options) {
+  requireDistinctFiles({{"MAP", options.map}, {"-o", options.output}, {"--json", global.json}});
   LoadedMap map = loadMap(global, options.map);
   Settings& settings = map.settings;
   if (!options.planner.empty())
     applyAssignment(settings, fmt::format("exploration.planner={}", options.planner), "--planner");
   settings.validate();
   const StateGrid states = makeStateGrid(map.volume);
-  const CollisionGrid collision(states, settings.free_flyer.cell_m);
-  std::optional<Pose> start;
-  if (map.record && !map.record->scan.empty()) start = map.record->scan.back().T_world_camera;
+  const CollisionGrid collision(states, settings.free_flyer.cell_m, settings.free_flyer.body_radius_m);
 
   StepRecord record;
+  record.step = map.step;
   record.planner = settings.planner();
   record.metrics.unknown_voxels = states.count(VoxelState::Unknown, settings.exploration.workspace);
   const PlanViewInput input{.volume = map.volume,
                             .states = states,
                             .camera = settings.camera,
                             .workspace = settings.exploration.workspace,
-                            .config = settings.exploration.planner};
+                            .config = settings.exploration.planner,
+                            .executed = map.exclusions.executed,
+                            .disappointing = map.exclusions.disappointing};
+  MotionPlan reported;
   Console console(global);
   planView(
-      record, input, makeReach(collision, settings.free_flyer, start, settings.exploration.seed),
+      record, input, makeReach(collision, map, reported),
       [&](Stage stage) {
         record.stage = stage;
         logDetail(stageText(record));
       },
       console.control());
+  if (!settings.exploration.enforce_reachability) reportMotion(record, reported);
   record.stage = Stage::Done;
   console.clear();
   if (options.output != "-" && global.json != "-") say(global, stepText(record));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "core/perception/saliency.h"
 #include "io/cloud_file.h"
@@ -9,6 +10,7 @@
 #include "viewer/app/command.h"
 #include "viewer/app/console.h"
 #include "viewer/app/inputs.h"
+#include "viewer/app/json_output.h"
 
 namespace vantage::app {
 namespace {
@@ -23,6 +25,11 @@ bool isCloudFile(const std::string& path) {
 }
 
 int segment(const GlobalOptions& global, const SegmentOptions& options) {
+  requireDistinctFiles({{"input", options.input},
+                        {"-o", options.output},
+                        {"--cloud", options.cloud},
+                        {"--json", global.json}});
+  if (!options.cloud.empty()) requireEnding("--cloud", options.cloud, {".pcd"});
   SurfaceCloud cloud;
   Settings settings;
   if (isCloudFile(options.input)) {
@@ -40,6 +47,9 @@ int segment(const GlobalOptions& global, const SegmentOptions& options) {
   for (const std::uint32_t index : bySaliency(saliency.segments)) ranked.push_back(saliency.segments[index]);
   writeSegments(options.output, ranked);
   if (!options.cloud.empty()) writeLabelledCloud(options.cloud, cloud, labels.of_point);
+  writeJson(
+      global.json,
+      {{"points", cloud.points.size()}, {"supervoxels", labels.supervoxels}, {"segments", labels.count}});
   if (options.output != "-")
     say(global, fmt::format("{} points, {} supervoxels, {} segments", cloud.points.size(), labels.supervoxels,
                             labels.count));

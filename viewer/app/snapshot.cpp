@@ -6,11 +6,15 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "io/error.h"
 #include "viewer/app/command.h"
 #include "viewer/app/console.h"
+#include "viewer/app/inputs.h"
+#include "viewer/app/json_output.h"
 
 namespace vantage::app {
 namespace {
@@ -56,6 +60,12 @@ std::string recipeHelp() {
 }
 
 int snapshot(const GlobalOptions& global, const SnapshotOptions& options) {
+  const std::string ending = std::filesystem::path(options.output).extension().string();
+  if (options.output == "-" ||
+      (!ending.empty() && ending != ".png" && !std::filesystem::is_directory(options.output)))
+    throw InputError("-o " + options.output,
+                     "pictures are PNG files; give a name ending in .png, or a folder");
+  requireDistinctFiles({{"RUN", options.run}, {"-o", options.output}, {"--json", global.json}});
   SnapshotRequest request;
   if (const auto step = parseStep(options.step)) request.step = *step;
   request.recipes = options.recipes;
@@ -64,7 +74,12 @@ int snapshot(const GlobalOptions& global, const SnapshotOptions& options) {
   Console console(global);
   const auto files = takeSnapshots(options.run, request, console.control());
   console.clear();
-  for (const auto& file : files) say(global, file.string());
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const auto& file : files) {
+    say(global, file.string());
+    list.push_back(file.string());
+  }
+  writeJson(global.json, {{"files", list}});
   return 0;
 }
 

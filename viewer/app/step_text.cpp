@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
+
 namespace vantage::app {
 namespace {
 
@@ -80,6 +82,14 @@ std::string stageText(const StepRecord& record) {
   if (!s.count.empty()) text += ": " + s.count;
   if (s.seconds) text += fmt::format(", {:.3f} s", *s.seconds);
   return text;
+}
+
+std::string servedText(const StepRecord& record) {
+  const Pose& planned = record.search->chosen->T_world_camera;
+  const Pose& served = record.served->T_world_camera;
+  return fmt::format("        served by frame {}, {:.2f} m and {:.0f} deg from the view",
+                     record.served->frame, (served.translation() - planned.translation()).norm(),
+                     angleBetween(served, planned) * 180.0 / std::numbers::pi);
 }
 
 std::string stepText(const StepRecord& record) {

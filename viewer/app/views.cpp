@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "core/views/contour_views.h"
 #include "io/table_file.h"
 #include "viewer/app/command.h"
 #include "viewer/app/console.h"
 #include "viewer/app/inputs.h"
+#include "viewer/app/json_output.h"
 
 namespace vantage::app {
 namespace {
@@ -14,6 +17,7 @@ struct ViewOptions {
 };
 
 int views(const GlobalOptions& global, const ViewOptions& options) {
+  requireDistinctFiles({{"MAP", options.map}, {"-o", options.output}, {"--json", global.json}});
   const LoadedMap map = loadMap(global, options.map);
   const ContourPlannerConfig& planner = map.settings.exploration.planner;
   const Contours found = extractContours(map.volume, planner.contours);
@@ -21,6 +25,7 @@ int views(const GlobalOptions& global, const ViewOptions& options) {
   for (const CandidateView& view : contourViews(found.points, planner.views))
     rows.push_back({view.id, view.T_world_camera, view.group});
   writeViews(options.output, rows);
+  writeJson(global.json, {{"views", rows.size()}, {"contour_points", found.points.size()}});
   if (options.output != "-")
     say(global, fmt::format("{} views of {} contour points", rows.size(), found.points.size()));
   return 0;
