@@ -10,6 +10,7 @@
 #include "io/run_file.h"
 #include "io/scene_file.h"
 #include "io/table_file.h"
+#include "io/text_file.h"
 #include "viewer/app/command.h"
 #include "viewer/app/console.h"
 #include "viewer/app/inputs.h"
@@ -99,16 +100,27 @@ Json describeScene(const std::string& name) {
           {"objects", objects}};
 }
 
+/// Any table: its columns and rows; a view table is also checked.
+Json describeTable(const std::string& path) {
+  const std::string text = readTextFile(path, std::uintmax_t{1} << 30);
+  const std::string header = text.substr(0, text.find_first_of("\r\n"));
+  if (header.rfind("id,x_m,", 0) == 0)
+    return {{"kind", "views"}, {"columns", header}, {"views", readViews(path).size()}};
+  const auto lines = std::count(text.begin(), text.end(), '\n') + (!text.empty() && text.back() != '\n');
+  if (lines == 0) throw InputError(path, "is empty; a table with a header row is wanted");
+  return {{"kind", "table"}, {"columns", header}, {"rows", lines - 1}};
+}
+
 Json describe(const GlobalOptions& global, const std::string& path) {
   const std::string extension = std::filesystem::path(path.substr(0, path.find('#'))).extension().string();
   if (path.find('#') != std::string::npos || extension == ".vti") return describeMap(global, path);
   if (extension == ".vantage") return describeRun(path);
   if (extension == ".pcd" || extension == ".ply") return describeCloud(path);
   if (std::filesystem::is_directory(path)) return describeDataset(path);
-  if (extension == ".csv") return {{"kind", "views"}, {"views", readViews(path).size()}};
+  if (extension == ".csv") return describeTable(path);
   if (extension == ".toml" || extension.empty()) return describeScene(path);
   throw InputError(path,
-                   "not a kind of file that is known; known: .vantage, .vti, .pcd, .ply, .csv (views), "
+                   "not a kind of file that is known; known: .vantage, .vti, .pcd, .ply, .csv, "
                    ".toml, data set folders");
 }
 
@@ -126,7 +138,7 @@ int info(const GlobalOptions& global, const std::string& path) {
 void addInfo(CLI::App& app, const GlobalOptions& global, Action& action) {
   auto path = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("info", "What a file holds: run, map, cloud, scene, data set");
-  command->add_option("file", *path, "Run, RUN#STEP, .vti, .pcd, .ply, view CSV, scene, or data set folder")
+  command->add_option("file", *path, "Run, RUN#STEP, .vti, .pcd, .ply, CSV, scene, or data set folder")
       ->required()
       ->type_name("FILE");
   command->footer("Example: vantage info tabletop.vantage");
