@@ -67,7 +67,11 @@ struct Explorer::State {
   std::vector<Pose> startPoses() const;
   bool scanInto(StepRecord& record, const std::vector<Pose>& poses, bool clear_start,
                 const RunControl& control);
+  std::vector<Pose> scanPoses(const std::optional<StepRecord>& previous) const;
+  bool observe(StepRecord& record, std::optional<StepRecord>& previous, const RunControl& control);
   void plan(StepRecord& record, const RunControl& control);
+  void move(StepRecord& record);
+  void close(StepRecord& record);
   void measureCoverage(StepRecord& record) const;
   void markTowardObject(StepRecord& record) const;
   void realise(StepRecord& previous, const StepRecord& scanned, std::uint64_t unknown_before);
@@ -196,45 +200,61 @@ const StateGrid& Explorer::states() const {
   return state_->states;
 }
 
+/// Along the arc at the start, at the last view later; recorded data serve one frame a view.
+std::vector<Pose> Explorer::State::scanPoses(const std::optional<StepRecord>& previous) const {
+  if (!previous) return startPoses();
+  const Pose& view = previous->search->chosen->T_world_camera;
+  return isReplay() ? std::vector<Pose>{view} : tiltedScanPoses(view, config.scan);
+}
+
+/// Scan and fuse, and look back at what the last view gained. False if the camera had no frame left.
+bool Explorer::State::observe(StepRecord& record, std::optional<StepRecord>& previous,
+                              const RunControl& control) {
+  const std::uint64_t unknown_before = previous ? unknownInRegion(*previous) : 0;
+  if (!scanInto(record, scanPoses(previous), !previous, control)) {
+    if (!previous) throw std::runtime_error("the camera served no frame for the initial scan");
+    return false;
+  }
+  if (previous) realise(*previous, record, unknown_before);
+  return true;
+}
+
+void Explorer::State::move(StepRecord& record) {
+  if (!record.hasView()) return;
+  const MotionPlan& path = record.search->chosen->path;
+  if (path.verdict == Reachability::Reachable) record.timings.motion = robot.execute(path);
+  publish(record, Stage::Motion);
+}
+
+/// What is left to say after the last scan.
+void Explorer::State::close(StepRecord& record) {
+  record.surface = share(extractSurface(volume, config.planner.contours.weight_threshold));
+  measureCoverage(record);
+  publish(record, Stage::Done);
+}
+
 ExplorationResult Explorer::run(const RunControl& control) {
   State& s = *state_;
   ExplorationResult result;
-  const std::string planner = s.config.planner.segment_by_segment ? kPlannerContour : kPlannerStandard;
   std::optional<StepRecord> previous;
   try {
     for (int step = 1;; ++step) {
-      const bool closing = step > s.config.steps;
       StepRecord record;
       record.step = step;
-      record.closing = closing;
-      record.planner = planner;
+      record.closing = step > s.config.steps;
+      record.planner = s.config.planner.segment_by_segment ? kPlannerContour : kPlannerStandard;
 
-      const std::uint64_t unknown_before = previous ? s.unknownInRegion(*previous) : 0;
-      const std::vector<Pose> poses =
-          previous ? (s.isReplay() ? std::vector<Pose>{previous->search->chosen->T_world_camera}
-                                   : tiltedScanPoses(previous->search->chosen->T_world_camera, s.config.scan))
-                   : s.startPoses();
-      if (!s.scanInto(record, poses, !previous, control)) {
-        if (!previous) throw std::runtime_error("the camera served no frame for the initial scan");
+      if (!s.observe(record, previous, control)) {
         result.stop_reason = "no frames left";
         return result;
       }
-      if (previous) s.realise(*previous, record, unknown_before);
-      if (closing) {
-        record.surface = share(extractSurface(s.volume, s.config.planner.contours.weight_threshold));
-        if (s.truth) record.metrics.coverage = surfaceCoverage(s.truth->observableSurface(), *record.surface);
-        s.publish(record, Stage::Done);
+      if (record.closing) {
+        s.close(record);
         result.stop_reason = "steps done";
         return result;
       }
-
       s.plan(record, control);
-      if (record.hasView()) {
-        const ChosenView& chosen = *record.search->chosen;
-        if (chosen.path.verdict == Reachability::Reachable)
-          record.timings.motion = s.robot.execute(chosen.path);
-        s.publish(record, Stage::Motion);
-      }
+      s.move(record);
       s.publish(record, Stage::Done);
       result.steps = step;
       if (!record.hasView()) {  // D-B14

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -94,20 +95,7 @@ std::optional<std::string> unexpected(const CLI::App& app, const CLI::App* comma
   return where + "unexpected argument '" + word + "'" + help;
 }
 
-int parseAndRun(int argc, char** argv) {
-  GlobalOptions global;
-  Action action;
-  CLI::App app(
-      "Vantage explores unknown scenes with a depth camera, decides where to look next, and shows why.");
-  app.name("vantage");
-  app.option_defaults()->always_capture_default(false);
-  app.fallthrough();
-  app.allow_extras();
-  app.require_subcommand(0, 1);
-  bool show_version = false;
-  app.add_flag("--version", show_version,
-               "Print the version; with -v also of the libraries and the GL driver");
-  addGlobalOptions(app, global);
+void addCommands(CLI::App& app, const GlobalOptions& global, Action& action) {
   addExplore(app, global, action);
   addSnapshot(app, global, action);
   addFuse(app, global, action);
@@ -127,31 +115,29 @@ int parseAndRun(int argc, char** argv) {
                     "\nOptions of every command (--set, --config, --json, --threads, --seed, -q, -v ...): "
                     "vantage --help");
   }
-  for (int a = 0; a < argc; ++a) global.command_line += (a ? " " : "") + std::string(a ? argv[a] : "vantage");
+}
 
+/// Parses the line. Returns an exit code if that is all there is to do.
+std::optional<int> parse(CLI::App& app, int argc, char** argv) {
+  std::optional<std::string> refusal;
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    const auto chosen = app.get_subcommands();
-    if (const auto message = unexpected(app, chosen.empty() ? nullptr : chosen.front()))
-      return fail(kBadInput, *message);
-    const std::string name = chosen.empty() ? "" : chosen.front()->get_name() + " ";
-    return fail(kBadInput, (name.empty() ? "" : name.substr(0, name.size() - 1) + ": ") +
-                               std::string(e.what()) + "; see 'vantage " + name + "--help'");
+    refusal = e.what();
   }
   const auto chosen = app.get_subcommands();
-  if (const auto message = unexpected(app, chosen.empty() ? nullptr : chosen.front()))
-    return fail(kBadInput, *message);
-  if (show_version) {
-    std::printf("%s", versionText(global.verbose).c_str());
-    return kDone;
-  }
-  if (chosen.empty()) {
-    std::printf("%s", app.help().c_str());
-    return kBadInput;
-  }
+  const CLI::App* command = chosen.empty() ? nullptr : chosen.front();
+  if (const auto message = unexpected(app, command)) return fail(kBadInput, *message);
+  if (!refusal) return std::nullopt;
+  const std::string name = command ? command->get_name() : "";
+  return fail(kBadInput, (command ? name + ": " : "") + *refusal + "; see 'vantage " + name +
+                             (command ? " " : "") + "--help'");
+}
+
+/// Runs the chosen command with the threads it was given.
+int run(const GlobalOptions& global, const Action& action) {
   const int threads =
       global.threads > 0 ? global.threads : static_cast<int>(std::thread::hardware_concurrency());
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, std::max(1, threads));
@@ -160,6 +146,34 @@ int parseAndRun(int argc, char** argv) {
   if (std::fflush(stdout) != 0 || std::ferror(stdout))
     return fail(kFailed, "standard output: cannot be written in full; check the free space");
   return code;
+}
+
+int parseAndRun(int argc, char** argv) {
+  GlobalOptions global;
+  Action action;
+  CLI::App app(
+      "Vantage explores unknown scenes with a depth camera, decides where to look next, and shows why.");
+  app.name("vantage");
+  app.fallthrough();
+  app.allow_extras();
+  app.require_subcommand(0, 1);
+  bool show_version = false;
+  app.add_flag("--version", show_version,
+               "Print the version; with -v also of the libraries and the GL driver");
+  addGlobalOptions(app, global);
+  addCommands(app, global, action);
+  for (int a = 0; a < argc; ++a) global.command_line += (a ? " " : "") + std::string(a ? argv[a] : "vantage");
+
+  if (const auto code = parse(app, argc, argv)) return *code;
+  if (show_version) {
+    std::printf("%s", versionText(global.verbose).c_str());
+    return kDone;
+  }
+  if (!action) {
+    std::printf("%s", app.help().c_str());
+    return kBadInput;
+  }
+  return run(global, action);
 }
 
 }  // namespace
