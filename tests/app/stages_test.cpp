@@ -167,6 +167,24 @@ TEST_F(Stages, ReplayedRecordingsRunTheLoop) {
   EXPECT_NE(frames[0], frames[1]);
 }
 
+TEST_F(Stages, ARecordingInItsFirstCamerasFrameIsPlacedUpright) {
+  const std::string box = std::string(VANTAGE_TEST_DATA) + "/rgbd_realsense_box";
+  if (!std::filesystem::exists(box)) GTEST_SKIP() << "recorded data set not here: " << box;
+  const ProcessResult result =
+      vantage({"explore", box, "--steps", "2", "-o", *folder_ / "rs.vantage", "--json", *folder_ / "rs.json",
+               "--set", "dataset.position_m=[-0.0494148,-0.346473,0.223853]", "--set",
+               "dataset.quaternion_xyzw=[-0.818964,0.0184919,0.0,0.573547]"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto run = nlohmann::json::parse(readFile(*folder_ / "rs.json"));
+  ASSERT_EQ(run["steps"].size(), 2u);
+  for (const auto& step : run["steps"]) {
+    EXPECT_EQ(step["status"], "view");
+    // The floor of the box is z = 0 there: whoever recorded it held the camera above.
+    EXPECT_GT(step["served_position_m"][2].get<double>(), 0.1);
+    EXPECT_LT(step["served_position_m"][2].get<double>(), 0.6);
+  }
+}
+
 TEST_F(Stages, FusedRecordingsGiveAMapAndAMesh) {
   const std::string tray = std::string(VANTAGE_TEST_DATA) + "/rgbd_ur5_tray";
   if (!std::filesystem::exists(tray)) GTEST_SKIP() << "recorded data set not here: " << tray;
