@@ -17,8 +17,8 @@
 namespace vantage::test {
 namespace {
 
-[[noreturn]] void becomeChild(const std::vector<std::string>& words, const ProcessOptions& options, const int in[2],
-                              const int out[2], const int err[2]) {
+[[noreturn]] void becomeChild(const std::vector<std::string>& words, const ProcessOptions& options,
+                              const int in[2], const int out[2], const int err[2]) {
   dup2(in[0], STDIN_FILENO);
   dup2(out[1], STDOUT_FILENO);
   dup2(err[1], STDERR_FILENO);
@@ -32,6 +32,10 @@ namespace {
     const rlimit limit{options.file_size_limit, options.file_size_limit};
     setrlimit(RLIMIT_FSIZE, &limit);
     signal(SIGXFSZ, SIG_IGN);  // writes fail with EFBIG instead
+  }
+  if (options.memory_limit > 0) {
+    const rlimit limit{options.memory_limit, options.memory_limit};
+    setrlimit(RLIMIT_AS, &limit);
   }
   std::vector<char*> argv;
   for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));

@@ -18,6 +18,7 @@ struct ProcessOptions {
   std::filesystem::path folder;                    ///< working folder, empty = the test's own
   std::string input;                               ///< standard input
   std::size_t file_size_limit = 0;                 ///< bytes that files may reach, 0 = no limit: a full disk
+  std::size_t memory_limit = 0;                    ///< bytes of address space, 0 = no limit
   double interrupt_after_s = 0.0;                  ///< send SIGINT after this time, 0 = never
 };
 
