@@ -1,14 +1,13 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "core/motion/path_planner.h"
 #include "core/perception/contours.h"
 #include "core/perception/saliency.h"
+#include "core/planners/view_choice.h"
 #include "core/raycasting/uniform_caster.h"
 #include "core/run_control.h"
 #include "core/views/contour_views.h"
@@ -77,35 +76,18 @@ struct SegmentSearch {
 inline constexpr int kHistogramBins = 52;  ///< margins up to 0.50 m, the last bin holds the rest
 inline constexpr double kHistogramWidth_m = 0.01;
 
-/// Machine-independent work and why poses fell out.
-struct SearchCounts {
-  std::uint64_t poses_generated = 0;
-  std::uint64_t poses_scored = 0;
-  std::uint64_t poses_above_threshold = 0;
-  std::uint64_t poses_unreachable = 0;      ///< above the threshold, tried before the chosen one and skipped
-  std::uint64_t poses_executed_before = 0;  ///< above the threshold, before the chosen one, skipped by D-B15
-  std::uint64_t rays = 0;                   ///< rays cast to score poses; shared ones once
-  std::uint64_t voxels_visited = 0;         ///< by a plain walk of those rays
-  std::uint64_t paths_planned = 0;          ///< calls of the path planner
-};
-
-/// The next best view.
-struct ChosenView {
-  std::uint32_t id = 0;
+/// The next best view and where it came from.
+struct ContourChosenView : ChosenView {
   std::uint32_t contour_point = 0;
   std::uint32_t search = 0;  ///< index into ViewSearch::segments
   std::uint32_t rank = 0;    ///< position in that segment's scores
-  Pose T_world_camera = Pose::Identity();
-  double gain = 0.0;              ///< rays, as PoseScore::gain
-  std::uint64_t gain_voxels = 0;  ///< distinct first-hit unknown voxels in the region, full resolution
-  MotionPlan path;
 };
 
 /// Result of the evaluation stage.
 struct ViewSearch {
   std::vector<SegmentSearch>
       segments;  ///< in the order in which they are tried; all with contour points, also those not reached
-  std::optional<ChosenView> chosen;
+  std::optional<ContourChosenView> chosen;
   SearchCounts counts;
   double evaluation_s = 0.0;       ///< ray casting and ranking, without the diagnostic `gain_voxels`
   double motion_planning_s = 0.0;  ///< reachability
@@ -129,9 +111,6 @@ struct ViewSearchInput {
   std::span<const Pose> executed;                  ///< poses taken so far (D-B15)
   std::span<const Eigen::Vector3d> disappointing;  ///< contour points not to be offered again (D-B33)
 };
-
-/// Answers whether the robot can take a pose and how. Called in rank order, from the calling thread.
-using ReachPose = std::function<MotionPlan(const Pose& T_world_camera)>;
 
 /// Algorithm 1, lines 6-17: segments by decreasing saliency, poses by decreasing gain, the first one above
 /// the threshold that can be reached. With segment_by_segment off: the standard baseline. A position that was

@@ -104,7 +104,7 @@ class Search {
 
   void take(std::uint32_t s, std::uint32_t rank, MotionPlan plan) {
     const SegmentSearch& segment = result_.segments[s];
-    ChosenView& view = result_.chosen.emplace();
+    ContourChosenView& view = result_.chosen.emplace();
     view.id = segment.scores[rank].id;
     view.contour_point = positionOf(view.id).group;
     view.search = s;
