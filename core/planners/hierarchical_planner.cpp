@@ -40,20 +40,20 @@ bool overlapsKnownSurface(const ViewUtility& view, const HierarchicalPlannerConf
 void HierarchicalPlannerConfig::validate() const {
   constexpr double kTiny = std::numeric_limits<double>::min();
   sensor.validate();
-  requireInRange("hierarchical.coarse_levels", coarse_levels, 0, StatePyramid::kMaxCoarseLevels);
-  requireInRange("hierarchical.icosphere_subdivisions", icosphere_subdivisions, 0, 6);
-  requireInRange("hierarchical.sphere_radius_m", sphere_radius_m, kTiny, 1e6);
-  requireInRange("hierarchical.workspace_views", workspace_views, 0, 10'000'000);
-  requireInRange("hierarchical.body_m", body_m, 0.0, 1000.0);
-  requireInRange("hierarchical.min_occupied", min_occupied, 0.0, 1e9);
-  requireInRange("hierarchical.min_overlap", min_overlap, 0.0, 1.0);
-  requireInRange("hierarchical.stop_gain", stop_gain, 0.0, 1e9);
-  requireInRange("hierarchical.rotation_weight_m_per_rad", rotation_weight_m_per_rad, 0.0, 1e6);
+  requireInRange("rays.coarse_levels", coarse_levels, 0, StatePyramid::kMaxCoarseLevels);
+  requireInRange("candidates.subdivisions", icosphere_subdivisions, 0, 6);
+  requireInRange("candidates.radius_m", sphere_radius_m, kTiny, 1e6);
+  requireInRange("candidates.workspace_views", workspace_views, 0, 10'000'000);
+  requireInRange("utility.body_m", body_m, 0.0, 1000.0);
+  requireInRange("utility.min_occupied", min_occupied, 0.0, 1e9);
+  requireInRange("utility.min_overlap", min_overlap, 0.0, 1.0);
+  requireInRange("utility.stop_gain", stop_gain, 0.0, 1e9);
+  requireInRange("utility.rotation_weight_m_per_rad", rotation_weight_m_per_rad, 0.0, 1e6);
   // D-A4: rays that stand for their leaves have no voxels of their own.
   if (count == GainCount::Voxels && !refine_unknown && coarse_levels > 0)
     throw std::invalid_argument(
-        "hierarchical.count = voxels needs hierarchical.refine_unknown = true or "
-        "hierarchical.coarse_levels = 0; unknown nodes are not refined to voxels otherwise");
+        "rays.count = voxels needs rays.refine_unknown = true or "
+        "rays.coarse_levels = 0; unknown nodes are not refined to voxels otherwise");
 }
 
 std::string_view tokenOf(ViewRejection rejection) {

@@ -143,7 +143,7 @@ TEST(UtilitySearch, EndsAtTheFirstEvaluationIfTheBoxIsFree) {
 TEST(UtilitySearch, GoesOnWhileAnySurvivorIsWorthAScanAndSaysWhereTheLiteralRuleStops) {
   Bench bench;
   const Pose rich = lookAt(Vector3d(0.03, -1.0, 0.02), Vector3d::Zero());
-  const Pose poor = lookAt(Vector3d(-0.8, -0.9, 0.02), Vector3d(-0.35, 0.1, 0));
+  const Pose poor = lookAt(Vector3d(-0.8, -0.9, 0.02), Vector3d(-0.25, 0.1, 0));
   bench.candidates = test::candidatesOf({rich, poor});
   bench.current = poor;
   bench.config.min_occupied = 0;
