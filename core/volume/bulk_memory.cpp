@@ -33,10 +33,11 @@ void throwDoesNotFit(std::string_view what, const GridGeometry& geometry, std::s
   throw std::runtime_error(text.str());
 }
 
-void requireGridFits(std::string_view what, const GridGeometry& geometry, std::size_t bytes_per_voxel) {
+void requireGridFits(std::string_view what, const GridGeometry& geometry, std::size_t bytes_per_voxel,
+                     int smallest) {
   for (int axis = 0; axis < 3; ++axis)
-    requireInRange(std::string(what) + ": size along " + "xyz"[axis] + " (voxels)", geometry.size[axis], 2,
-                   std::numeric_limits<int>::max());
+    requireInRange(std::string(what) + ": size along " + "xyz"[axis] + " (voxels)", geometry.size[axis],
+                   smallest, std::numeric_limits<int>::max());
   requireInRange(std::string(what) + ": voxel size (m)", geometry.voxel_size_m, 1e-6, 1e3);
   if (!geometry.origin_m.allFinite())
     throw std::invalid_argument(std::string(what) + ": origin is not finite");

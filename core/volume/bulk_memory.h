@@ -17,9 +17,10 @@ inline constexpr std::uint64_t kMaxVoxels = 2147483647;
 std::uint64_t availableMemory();
 
 /// Checks a grid before it is allocated with `bytes_per_voxel`.
-/// \throws std::invalid_argument for a size below 2 or a voxel size that is not positive and finite,
+/// \throws std::invalid_argument for a size below `smallest` or a voxel size that is not positive and finite,
 ///         std::runtime_error naming the size if the grid exceeds kMaxVoxels or the memory left.
-void requireGridFits(std::string_view what, const GridGeometry& geometry, std::size_t bytes_per_voxel);
+void requireGridFits(std::string_view what, const GridGeometry& geometry, std::size_t bytes_per_voxel,
+                     int smallest = 2);
 
 /// \throws std::runtime_error naming size and bytes, always.
 [[noreturn]] void throwDoesNotFit(std::string_view what, const GridGeometry& geometry,

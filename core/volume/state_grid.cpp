@@ -37,7 +37,7 @@ bool takeOver(const TsdfVolume& volume, const BrickRange& r, std::uint8_t* state
 }  // namespace
 
 StateGrid::StateGrid(const GridGeometry& geometry) : geometry_(geometry) {
-  requireGridFits("state grid", geometry, 2);
+  requireGridFits("state grid", geometry, 2, 1);
   try {
     states_.resize(geometry.count() + kReadMargin, 0);
     free_radius_.resize(geometry.count() + kReadMargin, 0);
@@ -56,12 +56,15 @@ void StateGrid::update(const TsdfVolume& volume, const BrickSet& changed) {
                       for (std::uint32_t b = range.begin(); b < range.end(); ++b)
                         if (changed.contains(b)) moved[b] = takeOver(volume, bricks.range(b), states_.data());
                     });
-  rebuildFreeRadiusNear(geometry_.size, states_.data(), moved, free_radius_.data());
+  rebuildFreeRadiusNear(moved);
 }
 
 void StateGrid::rebuildFreeRadius() {
-  const std::vector<std::uint8_t> all(BrickLayout(geometry_.size).total(), 1);
-  rebuildFreeRadiusNear(geometry_.size, states_.data(), all, free_radius_.data());
+  rebuildFreeRadiusNear(std::vector<std::uint8_t>(BrickLayout(geometry_.size).total(), 1));
+}
+
+void StateGrid::rebuildFreeRadiusNear(std::span<const std::uint8_t> moved) {
+  vantage::rebuildFreeRadiusNear(geometry_.size, states_.data(), moved, free_radius_.data());
 }
 
 std::uint64_t StateGrid::count(VoxelState state, const Box& box) const {

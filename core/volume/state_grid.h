@@ -14,7 +14,8 @@ namespace vantage {
 class StateGrid {
  public:
   StateGrid() = default;
-  /// Everything unknown. \throws std::runtime_error if it does not fit in memory.
+  /// Everything unknown. \throws std::invalid_argument for a size below 1, std::runtime_error if it does not
+  /// fit in memory.
   explicit StateGrid(const GridGeometry& geometry);
 
   const GridGeometry& geometry() const { return geometry_; }
@@ -40,6 +41,10 @@ class StateGrid {
     states_[geometry_.index(v)] = static_cast<std::uint8_t>(state);
   }
   void rebuildFreeRadius();
+  /// States for whoever derives them from another map; afterwards call rebuildFreeRadiusNear().
+  std::span<std::uint8_t> editStates() { return {states_.data(), geometry_.count()}; }
+  /// \param moved one flag a brick (BrickLayout) in which a voxel may have become free or stopped being it
+  void rebuildFreeRadiusNear(std::span<const std::uint8_t> moved);
 
   /// Number of voxels of a state whose centre lies in `box`.
   std::uint64_t count(VoxelState state, const Box& box) const;
