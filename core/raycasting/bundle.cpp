@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/raycasting/plain_caster.h"
-
 namespace vantage::casting {
 namespace {
 
@@ -45,7 +43,7 @@ class Tiles {
           mask |= 1u << k;
       lanes_[t] = static_cast<std::uint16_t>(mask);
     }
-    return {slope_x_.data(), slope_y_, lanes_.data(), tiles_};
+    return {slope_x_.data(), slope_y_, 0, lanes_.data(), tiles_};
   }
 
   static float slopeX(const PinholeCamera& c, int u) { return static_cast<float>((u - c.cx) / c.fx); }
@@ -64,6 +62,8 @@ class Tiles {
   std::vector<std::uint16_t> lanes_;
 };
 
+}  // namespace
+
 float squaredDistance(const Region& region, const int (&voxel)[3]) {
   const float x = static_cast<float>(voxel[0]) - region.center[0];
   const float y = static_cast<float>(voxel[1]) - region.center[1];
@@ -77,8 +77,7 @@ bool withinBounds(const Region& region, const int (&voxel)[3]) {
   return true;
 }
 
-/// Pixel rays of a bundle for the plain walk; `length` is the ray length of a metre of depth.
-PlainRay<float> pixelRay(const Bundle& bundle, float slope_x, float slope_y, float& length) {
+PlainRay<float> plainRay(const Bundle& bundle, float slope_x, float slope_y, float& length) {
   PlainRay<float> ray{};
   length = std::sqrt(slope_x * slope_x + slope_y * slope_y + 1.0f);
   for (int a = 0; a < 3; ++a) {
@@ -93,8 +92,6 @@ std::uint64_t countDistinct(std::vector<std::int32_t> voxels) {
   std::sort(voxels.begin(), voxels.end());
   return static_cast<std::uint64_t>(std::unique(voxels.begin(), voxels.end()) - voxels.begin());
 }
-
-}  // namespace
 
 Region makeRegion(const GridGeometry& g, const VisibilityQuery& query) {
   Region region;
@@ -116,20 +113,26 @@ Region makeRegion(const GridGeometry& g, const VisibilityQuery& query) {
 
 bool makeBundle(const StateGrid& grid, const PinholeCamera& camera, const Pose& T_world_camera,
                 const VisibilityQuery& query, Bundle& bundle) {
+  if (!makeBundle(grid, T_world_camera, camera.min_range_m, camera.max_range_m, bundle)) return false;
+  bundle.region = makeRegion(grid.geometry(), query);
+  bundle.transparent = query.outside == OutsideUnknown::Transparent;
+  return true;
+}
+
+bool makeBundle(const StateGrid& grid, const Pose& T_world_camera, double min_range_m, double max_range_m,
+                Bundle& bundle) {
   const GridGeometry& g = grid.geometry();
   const Eigen::Vector3d origin = g.toGrid(T_world_camera.translation()) + Eigen::Vector3d::Constant(0.5);
   if (g.count() == 0 || !(origin.cwiseAbs().maxCoeff() < kFarthestOrigin)) return false;
   bundle.grid = {grid.states().data(), grid.freeRadius().data(), {g.size.x(), g.size.y(), g.size.z()}};
-  bundle.region = makeRegion(g, query);
-  bundle.transparent = query.outside == OutsideUnknown::Transparent;
   const Eigen::Matrix3d axes = T_world_camera.linear() / g.voxel_size_m;
   for (int a = 0; a < 3; ++a) {
     bundle.origin[a] = static_cast<float>(origin[a]);
     bundle.start[a] = static_cast<int>(std::floor(bundle.origin[a]));
     for (int c = 0; c < 3; ++c) bundle.axis[c][a] = static_cast<float>(axes(a, c));
   }
-  bundle.min_range_m = static_cast<float>(camera.min_range_m);
-  bundle.max_range_m = static_cast<float>(camera.max_range_m);
+  bundle.min_range_m = static_cast<float>(min_range_m);
+  bundle.max_range_m = static_cast<float>(max_range_m);
   // Rounding moves a computed position by less than 4 units in the last place of the coordinates involved.
   bundle.doubt = static_cast<float>((origin.cwiseAbs().maxCoeff() + g.size.maxCoeff()) * 0x1p-20);
   return true;
@@ -202,7 +205,7 @@ void HitCounter::castPlainly(const StateGrid& grid, const PinholeCamera& camera,
   for (int v = pixels.v0; v < pixels.v1; ++v)
     for (int u = pixels.u0; u < pixels.u1; ++u) {
       float length = 1.0f;
-      const auto ray = pixelRay(bundle, Tiles::slopeX(camera, u), Tiles::slopeY(camera, v), length);
+      const auto ray = plainRay(bundle, Tiles::slopeX(camera, u), Tiles::slopeY(camera, v), length);
       const auto end = walkPlainly(bundle.grid.size, ray, stops);
       totals.visited += end.visited;
       if (!end.hit || end.t < bundle.min_range_m / length || !withinBounds(region, end.voxel)) continue;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/raycasting/cast_kernel.h"
+#include "core/raycasting/plain_caster.h"
 #include "core/raycasting/uniform_caster.h"
 #include "core/volume/cpu_path.h"
 
@@ -20,7 +21,20 @@ Region makeRegion(const GridGeometry& geometry, const VisibilityQuery& query);
 bool makeBundle(const StateGrid& grid, const PinholeCamera& camera, const Pose& T_world_camera,
                 const VisibilityQuery& query, Bundle& bundle);
 
+/// The same for any sensor, without the region.
+bool makeBundle(const StateGrid& grid, const Pose& T_world_camera, double min_range_m, double max_range_m,
+                Bundle& bundle);
+
 CastRow castRowFor(CpuPath path);
+CastList castListFor(CpuPath path);
+
+/// Different numbers in a list.
+std::uint64_t countDistinct(std::vector<std::int32_t> voxels);
+
+float squaredDistance(const Region& region, const int (&voxel)[3]);
+bool withinBounds(const Region& region, const int (&voxel)[3]);
+/// A ray for the plain walk; `length` becomes the ray length of a metre of depth.
+PlainRay<float> plainRay(const Bundle& bundle, float slope_x, float slope_y, float& length);
 
 /// Counts first hits over one or more casts of rays that share a query.
 class HitCounter {

@@ -78,4 +78,8 @@ void castRowAvx2(const Bundle& bundle, const TileRow& row, Totals& totals) {
   castRow<Avx2, 2>(bundle, row, totals);
 }
 
+void castListAvx2(const Bundle& bundle, const RayList& list, const Refinement& refinement, Totals& totals) {
+  castList<Avx2, 2>(bundle, list, refinement, totals);
+}
+
 }  // namespace vantage::casting

@@ -63,4 +63,8 @@ void castRowAvx512(const Bundle& bundle, const TileRow& row, Totals& totals) {
   castRow<Avx512, 2>(bundle, row, totals);
 }
 
+void castListAvx512(const Bundle& bundle, const RayList& list, const Refinement& refinement, Totals& totals) {
+  castList<Avx512, 2>(bundle, list, refinement, totals);
+}
+
 }  // namespace vantage::casting

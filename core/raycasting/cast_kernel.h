@@ -12,6 +12,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/raycasting/ray_family.h"
+
 namespace vantage::casting {
 
 /// Slopes below this (voxels a metre) count as zero: such a ray keeps its index along the axis.
@@ -49,7 +51,8 @@ struct Bundle {
 /// rectangle repeat a pixel and are masked out.
 struct TileRow {
   const float* slope_x = nullptr;        ///< 16 a tile
-  const float* slope_y = nullptr;        ///< 16, shared by the tiles
+  const float* slope_y = nullptr;        ///< 16 a tile, or shared by the tiles
+  int stride_y = 0;                      ///< entries of slope_y from one tile to the next: 16, or 0 if shared
   const std::uint16_t* lanes = nullptr;  ///< one mask a tile
   int tiles = 0;
 };
@@ -64,15 +67,51 @@ struct Hit {
 
 struct Totals {
   std::uint64_t unknown = 0, occupied = 0, visited = 0;
-  std::vector<Hit>* hits = nullptr;  ///< filled if not null with hits inside the bounds, in any order
+  std::uint64_t unknown_outside = 0;  ///< rays that end on unknown outside the region
+  std::vector<Hit>* hits = nullptr;   ///< filled if not null with hits inside the bounds, in any order
+};
+
+/// Rays in packets of 16, each with a start of its own.
+struct RayList {
+  const float* slope_x = nullptr;
+  const float* slope_y = nullptr;
+  const float* start_m = nullptr;  ///< along the ray; 0 = at the origin. Null: all are
+  const std::uint32_t* ray = nullptr;
+  const std::uint16_t* lanes = nullptr;  ///< one mask a packet; null: every ray is cast
+  std::uint32_t count = 0;               ///< entries; 16 can be read from any multiple of 16 below
+};
+
+/// Rays to be cast on the next finer level: appended to, with room for RayLevel::kSlopeMargin more.
+struct ChildList {
+  float* slope_x = nullptr;
+  float* slope_y = nullptr;
+  float* start_m = nullptr;
+  std::uint32_t* ray = nullptr;
+  std::uint32_t count = 0;
+};
+
+/// How the rays of a level are refined; see castHierarchical().
+struct Refinement {
+  const RayFamily* families = nullptr;  ///< of the rays of this level; null at the finest: nothing is refined
+  const float* child_slope_x = nullptr;  ///< of the next finer level
+  const float* child_slope_y = nullptr;
+  std::uint32_t child_columns = 0;
+  float step_back_m = 0;  ///< children start so far before the hit; at the origin if that lies behind it
+  bool refine_unknown = false;
+  ChildList* children = nullptr;
 };
 
 using CastRow = void (*)(const Bundle&, const TileRow&, Totals&);
+using CastList = void (*)(const Bundle&, const RayList&, const Refinement&, Totals&);
 
 void castRowPortable(const Bundle& bundle, const TileRow& row, Totals& totals);
+void castListPortable(const Bundle& bundle, const RayList& list, const Refinement& refinement,
+                      Totals& totals);
 #ifdef VANTAGE_X86_KERNELS
 void castRowAvx2(const Bundle& bundle, const TileRow& row, Totals& totals);
+void castListAvx2(const Bundle& bundle, const RayList& list, const Refinement& refinement, Totals& totals);
 void castRowAvx512(const Bundle& bundle, const TileRow& row, Totals& totals);
+void castListAvx512(const Bundle& bundle, const RayList& list, const Refinement& refinement, Totals& totals);
 #endif
 
 }  // namespace vantage::casting

@@ -20,6 +20,7 @@ struct Packet {
 
   F d[3], inverse[3];
   M forward[3];
+  F length;  ///< of a metre of depth
   F near_t, end_t;
   I end_axis;  ///< axis through whose border the ray leaves the grid, 3 = it ends at the maximum range
   I at[3];     ///< current voxel
@@ -27,6 +28,7 @@ struct Packet {
   F t;         ///< entry into the current voxel
   I state;     ///< of the voxel hit
   M live, hit, entered;
+  int number;  ///< of the packet's first ray in its list
 };
 
 /// True where plane `plane` of `axis` is crossed before or at the event (t, event_axis).
@@ -60,6 +62,7 @@ template <class L>
 void aim(const Bundle& b, const float* slope_x, const float* slope_y, Packet<L>& p) {
   const auto x = L::load(slope_x), y = L::load(slope_y);
   const auto length = L::sqrt(L::add(L::add(L::mul(x, x), L::mul(y, y)), L::all(1.0f)));
+  p.length = length;
   p.near_t = L::div(L::all(b.min_range_m), length);
   p.end_t = L::all(3e38f);
   p.end_axis = L::all(3);
@@ -227,20 +230,28 @@ void finish(const Bundle& b, Packet<L>& p) {
   }
 }
 
+/// Voxels that plain walks of the rays visit.
+template <class L>
+std::uint64_t visits(const Packet<L>& p) {
+  auto steps = L::all(1);
+  for (int a = 0; a < 3; ++a) steps = L::add(steps, L::abs(L::sub(p.at[a], p.first[a])));
+  return L::sum(L::select(p.entered, steps, L::all(0)));
+}
+
 template <class L>
 void collect(const Bundle& b, Packet<L>& p, Totals& totals) {
   finish<L>(b, p);
-  auto steps = L::all(1);
-  for (int a = 0; a < 3; ++a) steps = L::add(steps, L::abs(L::sub(p.at[a], p.first[a])));
-  totals.visited += L::sum(L::select(p.entered, steps, L::all(0)));
+  totals.visited += visits<L>(p);
 
   const auto counted = L::both(L::both(p.hit, L::inverse(L::less(p.t, p.near_t))), inBounds<L>(b, p));
   const auto distance2 = centerDistance2<L>(b, p);
   const auto inside = L::both(counted, inSphere<L>(b, distance2));
   const auto unknown = L::equal(p.state, L::all(0));
+  const auto far_unknown = L::both(L::both(p.hit, unknown), L::inverse(L::less(p.t, p.near_t)));
   const auto seen = L::bits(L::both(inside, unknown));
   const auto all = L::bits(inside);
   totals.unknown += __builtin_popcount(seen);
+  totals.unknown_outside += __builtin_popcount(L::bits(far_unknown)) - __builtin_popcount(seen);
   totals.occupied += __builtin_popcount(all) - __builtin_popcount(seen);
   if (!totals.hits) return;
 
@@ -257,9 +268,10 @@ void collect(const Bundle& b, Packet<L>& p, Totals& totals) {
 
 /// Packets of a row of tiles, one after the other.
 template <class L>
-class PacketSource {
+class TilePackets {
  public:
-  PacketSource(const Bundle& bundle, const TileRow& row) : bundle_(bundle), row_(row) {}
+  TilePackets(const Bundle& bundle, const TileRow& row, Totals& totals)
+      : bundle_(bundle), row_(row), totals_(totals) {}
 
   /// Starts the next packet that has rays; false if none is left.
   bool next(Packet<L>& p) {
@@ -270,22 +282,145 @@ class PacketSource {
       if (part_ == 0) ++tile_;
       const unsigned lanes = (row_.lanes[tile] >> part) & kMask;
       if (!lanes) continue;
-      start<L>(bundle_, row_.slope_x + 16 * tile + part, row_.slope_y + part, lanes, p);
+      start<L>(bundle_, row_.slope_x + 16 * tile + part, row_.slope_y + row_.stride_y * tile + part, lanes,
+               p);
       return true;
     }
     return false;
   }
+  void take(Packet<L>& p) { collect<L>(bundle_, p, totals_); }
 
  private:
   const Bundle& bundle_;
   const TileRow& row_;
+  Totals& totals_;
   int tile_ = 0, part_ = 0;
 };
 
-/// Casts a row with `kPackets` packets on their way at a time: while one waits for memory the others go on.
-template <class L, int kPackets>
-void castRow(const Bundle& b, const TileRow& row, Totals& totals) {
-  PacketSource<L> source(b, row);
+/// Takes rays on to where they start: all crossings up to there are done, and no others.
+template <class L>
+void resume(const Bundle& b, typename L::F start_m, Packet<L>& p) {
+  const auto t = L::div(start_m, p.length);
+  const auto later = L::both(L::less(L::all(0.0f), t), L::inverse(L::less(t, p.t)));
+  p.entered = L::both(p.entered, L::inverse(L::both(later, L::less(p.end_t, t))));
+  typename L::I at[3];
+  auto doubtful = L::none();
+  for (int a = 0; a < 3; ++a) {
+    const auto where = position<L>(b, p, a, t);
+    at[a] = L::floor(where);
+    const auto part = L::sub(where, L::toFloat(at[a]));
+    doubtful =
+        L::either(doubtful, L::either(L::less(part, L::all(b.doubt)), L::less(L::all(1.0f - b.doubt), part)));
+  }
+  if (L::any(L::both(L::both(later, p.entered), doubtful)))
+    for (int a = 0; a < 3; ++a) at[a] = corrected<L>(b, p, a, at[a], t, L::all(3));
+  auto outside = L::none();
+  for (int a = 0; a < 3; ++a) {
+    p.at[a] = L::select(later, at[a], p.at[a]);
+    outside = L::either(outside,
+                        L::either(L::less(p.at[a], L::all(0)), L::less(L::all(b.grid.size[a] - 1), p.at[a])));
+  }
+  p.entered = L::both(p.entered, L::inverse(outside));
+  p.t = L::select(later, t, p.t);
+  for (int a = 0; a < 3; ++a) p.first[a] = p.at[a];
+  p.live = p.entered;
+}
+
+/// Sum of the finest rays below some rays of a packet.
+inline std::uint64_t leavesOf(const RayFamily* families, const std::uint32_t* ray, unsigned lanes) {
+  std::uint64_t leaves = 0;
+  for (; lanes; lanes &= lanes - 1) leaves += families[ray[__builtin_ctz(lanes)]].leaves;
+  return leaves;
+}
+
+/// Appends the children of one ray.
+inline void refine(const Refinement& r, const RayFamily& family, float start_m) {
+  ChildList& out = *r.children;
+  std::uint32_t end = out.count;
+  for (unsigned row = 0; row < family.rows; ++row) {
+    const std::uint32_t from = family.first_child + row * r.child_columns;
+    for (unsigned c = 0; c < family.columns; c += 4)  // four at a time, what is too much is overwritten
+      for (unsigned k = c; k < c + 4; ++k) {
+        out.slope_x[end + k] = r.child_slope_x[from + k];
+        out.slope_y[end + k] = r.child_slope_y[from + k];
+        out.start_m[end + k] = start_m;
+        out.ray[end + k] = from + k;
+      }
+    end += family.columns;
+  }
+  out.count = end;
+}
+
+/// What becomes of the rays of a coarse level: they are refined, or count for all finest rays below them.
+template <class L>
+void descend(const Bundle& b, Packet<L>& p, const std::uint32_t* ray, const Refinement& r, Totals& totals) {
+  finish<L>(b, p);
+  totals.visited += visits<L>(p);
+  if (!L::any(p.hit)) return;
+  auto own = p.hit;  // the node that holds the sensor (D-A12)
+  for (int a = 0; a < 3; ++a) own = L::both(own, L::equal(p.at[a], L::all(b.start[a])));
+  const auto counted = L::both(p.hit, L::inverse(L::either(own, L::less(p.t, p.near_t))));  // D-A22
+  const auto inside = L::both(counted, L::both(inBounds<L>(b, p), inSphere<L>(b, centerDistance2<L>(b, p))));
+  const unsigned unknown = L::bits(L::equal(p.state, L::all(0)));
+  const unsigned in = L::bits(inside), out = L::bits(counted) & ~in;
+  totals.unknown_outside += leavesOf(r.families, ray, out & unknown);  // D-A8, D-A9
+  unsigned refined = in;
+  if (!r.refine_unknown) {
+    totals.unknown += leavesOf(r.families, ray, in & unknown);
+    refined &= ~unknown;
+  }
+  refined |= L::bits(own);
+  if (!refined) return;
+  float start_m[L::kWidth];
+  const auto begin = L::sub(L::mul(p.t, p.length), L::all(r.step_back_m));  // D-A11
+  L::store(start_m, L::select(L::less(begin, L::all(0.0f)), L::all(0.0f), begin));
+  for (; refined; refined &= refined - 1) {
+    const int k = __builtin_ctz(refined);
+    refine(r, r.families[ray[k]], start_m[k]);
+  }
+}
+
+/// Packets of a list of rays, one after the other.
+template <class L>
+class ListPackets {
+ public:
+  ListPackets(const Bundle& bundle, const RayList& list, const Refinement& refinement, Totals& totals)
+      : bundle_(bundle), list_(list), refinement_(refinement), totals_(totals) {}
+
+  bool next(Packet<L>& p) {
+    constexpr unsigned kMask = (1u << L::kWidth) - 1;
+    while (first_ < list_.count) {
+      const std::uint32_t first = first_;
+      first_ += L::kWidth;
+      const std::uint32_t left = list_.count - first;
+      unsigned lanes = left < L::kWidth ? (1u << left) - 1 : kMask;
+      if (list_.lanes) lanes &= list_.lanes[first / 16] >> (first % 16);
+      if (!lanes) continue;
+      p.number = static_cast<int>(first);
+      start<L>(bundle_, list_.slope_x + first, list_.slope_y + first, lanes, p);
+      if (list_.start_m) resume<L>(bundle_, L::load(list_.start_m + first), p);
+      return true;
+    }
+    return false;
+  }
+  void take(Packet<L>& p) {
+    if (refinement_.families)
+      descend<L>(bundle_, p, list_.ray + p.number, refinement_, totals_);
+    else
+      collect<L>(bundle_, p, totals_);
+  }
+
+ private:
+  const Bundle& bundle_;
+  const RayList& list_;
+  const Refinement& refinement_;
+  Totals& totals_;
+  std::uint32_t first_ = 0;
+};
+
+/// Casts packets with `kPackets` on their way at a time: while one waits for memory the others go on.
+template <class L, int kPackets, class Packets>
+void castPackets(const Bundle& b, Packets& source) {
   Packet<L> packets[kPackets];
   int flying = 0;
   while (flying < kPackets && source.next(packets[flying])) ++flying;
@@ -298,12 +433,24 @@ void castRow(const Bundle& b, const TileRow& row, Totals& totals) {
         jump<L>(b, p, radius);
         continue;
       }
-      collect<L>(b, p, totals);
+      source.take(p);
       if (source.next(p)) continue;
       if (n != flying - 1) p = packets[flying - 1];
       --flying;
     }
   }
+}
+
+template <class L, int kPackets>
+void castRow(const Bundle& b, const TileRow& row, Totals& totals) {
+  TilePackets<L> source(b, row, totals);
+  castPackets<L, kPackets>(b, source);
+}
+
+template <class L, int kPackets>
+void castList(const Bundle& b, const RayList& list, const Refinement& refinement, Totals& totals) {
+  ListPackets<L> source(b, list, refinement, totals);
+  castPackets<L, kPackets>(b, source);
 }
 
 }  // namespace

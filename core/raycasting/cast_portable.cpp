@@ -80,4 +80,9 @@ void castRowPortable(const Bundle& bundle, const TileRow& row, Totals& totals) {
   castRow<Single, 1>(bundle, row, totals);
 }
 
+void castListPortable(const Bundle& bundle, const RayList& list, const Refinement& refinement,
+                      Totals& totals) {
+  castList<Single, 1>(bundle, list, refinement, totals);
+}
+
 }  // namespace vantage::casting

@@ -20,6 +20,15 @@ CastRow castRowFor(CpuPath path) {
   return castRowPortable;
 }
 
+CastList castListFor(CpuPath path) {
+#ifdef VANTAGE_X86_KERNELS
+  if (path == CpuPath::Avx512) return castListAvx512;
+  if (path == CpuPath::Avx2) return castListAvx2;
+#endif
+  static_cast<void>(path);
+  return castListPortable;
+}
+
 VisibilityCounts castRectangle(CpuPath path, const StateGrid& grid, const PinholeCamera& camera,
                                const Pose& T_world_camera, const VisibilityQuery& query,
                                const PixelRectangle& pixels) {
