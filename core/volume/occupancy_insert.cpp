@@ -2,7 +2,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -19,78 +18,97 @@ namespace {
 using octree::kBlock;
 
 constexpr std::size_t kNoHit = std::numeric_limits<std::size_t>::max();
-constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// One axis of a line of sight through a grid, where voxel i covers [i, i+1).
-struct Axis {
-  double next = kNever;       ///< parameter of the next crossing; never = none is left
-  double between = kNever;    ///< parameter between crossings
-  int steps = 0;              ///< crossings left inside the grid
-  bool leaves = false;        ///< the line leaves the grid along this axis
-  std::ptrdiff_t stride = 0;  ///< of the linear index, with the direction's sign
-};
-
+/// Part of a line of sight inside a grid, in coordinates in which voxel i covers [i, i+1).
 struct Sight {
-  std::array<Axis, 3> axes;
-  std::size_t first = 0;     ///< voxel in which the line begins or enters the grid
-  std::size_t end = kNoHit;  ///< voxel in which it ends, if inside
+  Eigen::Vector3d from, direction;
+  Eigen::Vector3i first, last;  ///< voxels in which the part begins and ends
+  bool ends_inside = false;     ///< the line ends in `last`; else it leaves the grid there
 };
 
 /// Cuts the line from `from` to `to` to a grid. \return false if it passes by
-bool enter(const GridGeometry& g, const Eigen::Vector3d& from, const Eigen::Vector3d& to, Sight& sight) {
+bool enter(const Eigen::Vector3i& size, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+           Sight& sight) {
   const Eigen::Vector3d d = to - from;
-  double first = 0.0, last = 1.0;
+  double t_first = 0.0, t_last = 1.0;
   for (int a = 0; a < 3; ++a) {
-    if (d[a] == 0.0 && (from[a] < 0.0 || from[a] >= g.size[a])) return false;
+    if (d[a] == 0.0 && (from[a] < 0.0 || from[a] >= size[a])) return false;
     if (d[a] == 0.0) continue;
-    const double t0 = -from[a] / d[a], t1 = (g.size[a] - from[a]) / d[a];
-    first = std::max(first, std::min(t0, t1));
-    last = std::min(last, std::max(t0, t1));
+    const double t0 = -from[a] / d[a], t1 = (size[a] - from[a]) / d[a];
+    t_first = std::max(t_first, std::min(t0, t1));
+    t_last = std::min(t_last, std::max(t0, t1));
   }
-  if (!(first <= last)) return false;
-  const std::array<std::ptrdiff_t, 3> strides = {1, g.size.x(),
-                                                 static_cast<std::ptrdiff_t>(g.size.x()) * g.size.y()};
-  Eigen::Vector3i begin, end;
-  bool ends_inside = true;
+  if (!(t_first <= t_last)) return false;
+  sight.from = from;
+  sight.direction = d;
+  sight.ends_inside = true;
   for (int a = 0; a < 3; ++a) {
-    Axis& axis = sight.axes[a];
-    const double border = g.size[a] - 1.0, goal = std::floor(to[a]);
-    begin[a] = static_cast<int>(std::clamp(std::floor(from[a] + first * d[a]), 0.0, border));
-    end[a] = static_cast<int>(std::clamp(goal, 0.0, border));
-    axis.leaves = goal < 0.0 || goal > border;
-    ends_inside = ends_inside && !axis.leaves;
-    const int direction = d[a] < 0.0 ? -1 : 1;
-    axis.stride = direction * strides[a];
-    axis.steps = std::max(0, direction * (end[a] - begin[a]));
-    axis.between = std::abs(1.0 / d[a]);
-    const bool crosses = axis.steps > 0 || axis.leaves;
-    axis.next = crosses ? (begin[a] + (direction > 0 ? 1 : 0) - from[a]) / d[a] : kNever;
+    const double border = size[a] - 1.0, end = std::floor(to[a]);
+    sight.ends_inside = sight.ends_inside && end >= 0.0 && end <= border;
+    const auto inside = [&](double t) {
+      return static_cast<int>(std::clamp(std::floor(from[a] + t * d[a]), 0.0, border));
+    };
+    sight.first[a] = inside(t_first);
+    sight.last[a] = t_last == 1.0 ? static_cast<int>(std::clamp(end, 0.0, border)) : inside(t_last);
   }
-  sight.first = g.index(begin);
-  sight.end = ends_inside ? g.index(end) : kNoHit;
   return true;
 }
 
 /// Sets a bit. Every thread stores the same bits, so the order of the stores does not matter.
 void mark(std::uint8_t& byte, std::uint8_t bit) {
   const std::atomic_ref<std::uint8_t> shared(byte);
-  const std::uint8_t old = shared.load(std::memory_order_relaxed);
-  if (!(old & bit)) shared.store(static_cast<std::uint8_t>(old | bit), std::memory_order_relaxed);
+  shared.store(static_cast<std::uint8_t>(shared.load(std::memory_order_relaxed) | bit),
+               std::memory_order_relaxed);
 }
 
-/// Marks the voxels that a line passes (Amanatides & Woo 1987), without the one in which it ends.
-void pass(Sight sight, std::uint8_t* marks, std::uint8_t bit) {
-  auto& [x, y, z] = sight.axes;
-  for (std::size_t at = sight.first;;) {
-    Axis& axis = x.next <= y.next ? (x.next <= z.next ? x : z) : (y.next <= z.next ? y : z);
-    if (axis.steps == 0) {
-      if (axis.leaves) mark(marks[at], bit);
-      return;
-    }
-    mark(marks[at], bit);
-    at += axis.stride;
-    axis.next = --axis.steps > 0 || axis.leaves ? axis.next + axis.between : kNever;
+/// One of the two axes across the main one, along which a line moves by at most one voxel a slab.
+struct Cross {
+  double from, slope, inverse;
+  int low, high;
+  std::ptrdiff_t stride;
+
+  Cross(const GridGeometry& g, const Sight& s, int axis, int main)
+      : from(s.from[axis]),
+        slope(s.direction[axis] / s.direction[main]),
+        inverse(1.0 / s.direction[axis]),
+        low(std::min(s.first[axis], s.last[axis])),
+        high(std::max(s.first[axis], s.last[axis])),
+        stride(axis == 0   ? 1
+               : axis == 1 ? g.size.x()
+                           : static_cast<std::ptrdiff_t>(g.size.x()) * g.size.y()) {}
+  /// Voxel at a distance along the main axis. Clamped before rounding down, so it stays in the grid.
+  int at(double along) const { return std::clamp(static_cast<int>(from + slope * along), low, high); }
+  /// Parameter at which the line goes from one voxel to its neighbour.
+  double crossing(int a, int b) const { return (std::max(a, b) - from) * inverse; }
+};
+
+/// Marks the voxels that a line passes, without the one in which it ends. Slab by slab along the main axis:
+/// in a slab lie the voxels of entry and exit and, where both other axes move, the one between. Voxels that
+/// coincide are marked twice, which costs less than to ask.
+void pass(const GridGeometry& g, const Sight& s, std::uint8_t* marks, std::uint8_t bit) {
+  int main = 0;
+  s.direction.cwiseAbs().maxCoeff(&main);
+  const Cross u(g, s, (main + 1) % 3, main), v(g, s, (main + 2) % 3, main);
+  const int step = s.last[main] < s.first[main] ? -1 : 1;
+  const std::ptrdiff_t stride = step * Cross(g, s, main, main).stride;
+  int u0 = s.first[(main + 1) % 3], v0 = s.first[(main + 2) % 3];
+  std::uint8_t* slab = marks + g.index(s.first) - u0 * u.stride - v0 * v.stride;
+  double along = s.first[main] + (step > 0 ? 1 : 0) - s.from[main];  // to the plane at which a slab is left
+  for (int n = s.first[main]; n != s.last[main]; n += step, along += step, slab += stride) {
+    const int u1 = u.at(along), v1 = v.at(along);
+    const bool u_first = u.crossing(u0, u1) <= v.crossing(v0, v1);
+    mark(slab[u0 * u.stride + v0 * v.stride], bit);
+    mark(slab[(u_first ? u1 : u0) * u.stride + (u_first ? v0 : v1) * v.stride], bit);
+    mark(slab[u1 * u.stride + v1 * v.stride], bit);
+    u0 = u1;
+    v0 = v1;
   }
+  const int u1 = s.last[(main + 1) % 3], v1 = s.last[(main + 2) % 3];
+  const bool u_first = u.crossing(u0, u1) <= v.crossing(v0, v1);
+  std::uint8_t* const last = slab + u1 * u.stride + v1 * v.stride;
+  std::uint8_t* const between = slab + (u_first ? u1 : u0) * u.stride + (u_first ? v0 : v1) * v.stride;
+  for (std::uint8_t* at : {slab + u0 * u.stride + v0 * v.stride, between, last})
+    if (at != last || !s.ends_inside) mark(*at, bit);
 }
 
 void requireImage(const DepthImage& depth, const PinholeCamera& camera, const Pose& T_world_camera) {
@@ -171,10 +189,11 @@ class OccupancyOctree::Scan {
     const bool beyond = range_m > d_.config.insert_range_m;
     if (beyond) p_camera *= d_.config.insert_range_m / range_m;
     Sight sight;
-    if (!enter(d_.geometry, inGrid(T_world_camera_.translation()), inGrid(T_world_camera_ * p_camera), sight))
+    if (!enter(d_.geometry.size, inGrid(T_world_camera_.translation()), inGrid(T_world_camera_ * p_camera),
+               sight))
       return kNoHit;
-    pass(sight, d_.marks.data(), Data::kMissed);
-    return beyond ? kNoHit : sight.end;
+    pass(d_.geometry, sight, d_.marks.data(), Data::kMissed);
+    return beyond || !sight.ends_inside ? kNoHit : d_.geometry.index(sight.last);
   }
 
   Eigen::Vector3d inGrid(const Eigen::Vector3d& p_world) const {
