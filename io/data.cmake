@@ -21,6 +21,7 @@ vantage_library(vantage_io_data
     dataset_toml.cpp
     depth_png.cpp
     mesh_ply.cpp
+    octree_file.cpp
     suggest.cpp
     table_file.cpp
     text_file.cpp

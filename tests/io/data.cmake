@@ -1,4 +1,5 @@
 vantage_test(config_file_test config_file_test.cpp suggest_test.cpp LIBS vantage_io_data)
 vantage_test(dataset_test dataset_test.cpp depth_png_test.cpp LIBS vantage_io_data)
 vantage_test(volume_file_test volume_file_test.cpp LIBS vantage_io_data)
+vantage_test(octree_file_test octree_file_test.cpp LIBS vantage_io_data)
 vantage_test(exchange_file_test table_file_test.cpp camera_file_test.cpp cloud_file_test.cpp LIBS vantage_io_data)
