@@ -21,6 +21,9 @@ vantage_library(vantage_io_scene
 
 # Files below assets/ that the program carries with it.
 vantage_embed_assets(vantage_io_scene
+  scenes/a1_compact.toml
+  scenes/a1_elongated.toml
+  scenes/a3_room.toml
   scenes/box.toml
   scenes/room.toml
   scenes/tabletop.toml)
