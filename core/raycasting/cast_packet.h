@@ -5,6 +5,7 @@
 // translation unit compiles it for another instruction set.
 
 #include <cstdint>
+#include <cstring>
 
 #include "core/raycasting/cast_kernel.h"
 
@@ -26,7 +27,6 @@ struct Packet {
   I at[3];     ///< current voxel
   I first[3];  ///< first voxel inside the grid
   F t;         ///< entry into the current voxel
-  I state;     ///< of the voxel hit
   M live, hit, entered;
   int number;  ///< of the packet's first ray in its list
 };
@@ -120,7 +120,6 @@ void start(const Bundle& b, const float* slope_x, const float* slope_y, unsigned
   aim<L>(b, slope_x, slope_y, p);
   p.entered = L::lanes(lanes);
   p.t = L::all(0.0f);
-  p.state = L::all(0);
   p.hit = L::none();
   const auto outside = [&](int a) { return b.start[a] < 0 || b.start[a] >= b.grid.size[a]; };
   if (outside(0) || outside(1) || outside(2)) enter<L>(b, p);
@@ -156,19 +155,23 @@ typename L::I linear(const Bundle& b, const Packet<L>& p) {
                 L::mul(L::all(b.grid.size[0]), L::add(p.at[1], L::mul(L::all(b.grid.size[1]), p.at[2]))));
 }
 
+/// Rays that stand on voxels outside the region and go through those that are unknown.
+template <class L>
+typename L::M goThrough(const Bundle& b, const Packet<L>& p, typename L::I voxel, typename L::M standing) {
+  const auto counts = L::both(inBounds<L>(b, p), inSphere<L>(b, centerDistance2<L>(b, p)));
+  const auto unknown = L::equal(L::gather(b.grid.states, voxel, standing), L::all(0));
+  return L::both(standing, L::both(unknown, L::inverse(counts)));
+}
+
 /// Ends the rays that stand on a voxel that stops them; returns the radius by which the others may jump.
 template <class L>
 typename L::I stop(const Bundle& b, Packet<L>& p, typename L::I voxel, typename L::I radius) {
   auto standing = L::both(p.live, L::equal(radius, L::all(0)));
-  if (!L::any(standing)) return radius;
-  const auto state = L::gather(b.grid.states, voxel, standing);
-  if (b.transparent) {
-    const auto counts = L::both(inBounds<L>(b, p), inSphere<L>(b, centerDistance2<L>(b, p)));
-    const auto through = L::both(standing, L::both(L::equal(state, L::all(0)), L::inverse(counts)));
+  if (b.transparent && L::any(standing)) {
+    const auto through = goThrough<L>(b, p, voxel, standing);
     radius = L::select(through, L::all(1), radius);
     standing = L::both(standing, L::inverse(through));
   }
-  p.state = L::select(standing, state, p.state);
   p.hit = L::either(p.hit, standing);
   p.live = L::both(p.live, L::inverse(standing));
   return radius;
@@ -238,6 +241,13 @@ std::uint64_t visits(const Packet<L>& p) {
   return L::sum(L::select(p.entered, steps, L::all(0)));
 }
 
+/// Hits on unknown voxels.
+template <class L>
+typename L::M unknownHits(const Bundle& b, const Packet<L>& p) {
+  return L::both(p.hit, L::equal(L::gather(b.grid.states, linear<L>(b, p), p.hit), L::all(0)));
+}
+
+/// Counts the hits of a packet.
 template <class L>
 void collect(const Bundle& b, Packet<L>& p, Totals& totals) {
   finish<L>(b, p);
@@ -246,8 +256,8 @@ void collect(const Bundle& b, Packet<L>& p, Totals& totals) {
   const auto counted = L::both(L::both(p.hit, L::inverse(L::less(p.t, p.near_t))), inBounds<L>(b, p));
   const auto distance2 = centerDistance2<L>(b, p);
   const auto inside = L::both(counted, inSphere<L>(b, distance2));
-  const auto unknown = L::equal(p.state, L::all(0));
-  const auto far_unknown = L::both(L::both(p.hit, unknown), L::inverse(L::less(p.t, p.near_t)));
+  const auto unknown = unknownHits<L>(b, p);
+  const auto far_unknown = L::both(unknown, L::inverse(L::less(p.t, p.near_t)));
   const auto seen = L::bits(L::both(inside, unknown));
   const auto all = L::bits(inside);
   totals.unknown += __builtin_popcount(seen);
@@ -333,19 +343,19 @@ inline std::uint64_t leavesOf(const RayFamily* families, const std::uint32_t* ra
   return leaves;
 }
 
-/// Appends the children of one ray.
-inline void refine(const Refinement& r, const RayFamily& family, float start_m) {
-  ChildList& out = *r.children;
+/// Appends the children of one ray, a row of four at a time: what is too much is overwritten by the next.
+inline void refine(const Refinement& r, const RayFamily& family, float start_m, ChildList& out) {
+  const float starts[4] = {start_m, start_m, start_m, start_m};
   std::uint32_t end = out.count;
-  for (unsigned row = 0; row < family.rows; ++row) {
+  for (std::uint32_t row = 0; row < family.rows; ++row) {
     const std::uint32_t from = family.first_child + row * r.child_columns;
-    for (unsigned c = 0; c < family.columns; c += 4)  // four at a time, what is too much is overwritten
-      for (unsigned k = c; k < c + 4; ++k) {
-        out.slope_x[end + k] = r.child_slope_x[from + k];
-        out.slope_y[end + k] = r.child_slope_y[from + k];
-        out.start_m[end + k] = start_m;
-        out.ray[end + k] = from + k;
-      }
+    for (std::uint32_t c = 0; c < family.columns; c += 4) {
+      const std::uint32_t rays[4] = {from + c, from + c + 1, from + c + 2, from + c + 3};
+      std::memcpy(out.slope_x + end + c, r.child_slope_x + from + c, sizeof starts);
+      std::memcpy(out.slope_y + end + c, r.child_slope_y + from + c, sizeof starts);
+      std::memcpy(out.start_m + end + c, starts, sizeof starts);
+      std::memcpy(out.ray + end + c, rays, sizeof rays);
+    }
     end += family.columns;
   }
   out.count = end;
@@ -361,7 +371,7 @@ void descend(const Bundle& b, Packet<L>& p, const std::uint32_t* ray, const Refi
   for (int a = 0; a < 3; ++a) own = L::both(own, L::equal(p.at[a], L::all(b.start[a])));
   const auto counted = L::both(p.hit, L::inverse(L::either(own, L::less(p.t, p.near_t))));  // D-A22
   const auto inside = L::both(counted, L::both(inBounds<L>(b, p), inSphere<L>(b, centerDistance2<L>(b, p))));
-  const unsigned unknown = L::bits(L::equal(p.state, L::all(0)));
+  const unsigned unknown = L::bits(unknownHits<L>(b, p));
   const unsigned in = L::bits(inside), out = L::bits(counted) & ~in;
   totals.unknown_outside += leavesOf(r.families, ray, out & unknown);  // D-A8, D-A9
   unsigned refined = in;
@@ -374,10 +384,12 @@ void descend(const Bundle& b, Packet<L>& p, const std::uint32_t* ray, const Refi
   float start_m[L::kWidth];
   const auto begin = L::sub(L::mul(p.t, p.length), L::all(r.step_back_m));  // D-A11
   L::store(start_m, L::select(L::less(begin, L::all(0.0f)), L::all(0.0f), begin));
+  ChildList children = *r.children;
   for (; refined; refined &= refined - 1) {
     const int k = __builtin_ctz(refined);
-    refine(r, r.families[ray[k]], start_m[k]);
+    refine(r, r.families[ray[k]], start_m[k], children);
   }
+  r.children->count = children.count;
 }
 
 /// Packets of a list of rays, one after the other.

@@ -9,37 +9,53 @@ namespace vantage {
 namespace casting {
 namespace {
 
-/// Memory for the rays of one level that are to be cast.
+constexpr std::uint32_t kPacket = 16;
+/// Rays of a level that are cast before their children are, whole packets: what is on its way stays in the
+/// cache, and memory small enough to be handed out again warm.
+constexpr std::uint32_t kSlice = 64 * kPacket;
+
+/// Memory for the children of a slice.
 class RayBuffer {
  public:
-  explicit RayBuffer(std::uint32_t rays) : size_((rays + kPacket - 1) / kPacket * kPacket + kPacket) {
-    slopes_and_starts_.reset(new float[3 * static_cast<std::size_t>(size_)]);
-    rays_.reset(new std::uint32_t[size_]);
-    children_.slope_x = slopes_and_starts_.get();
-    children_.slope_y = children_.slope_x + size_;
-    children_.start_m = children_.slope_y + size_;
-    children_.ray = rays_.get();
+  explicit RayBuffer(std::uint32_t rays) {
+    static_assert(kPacket >= RayLevel::kSlopeMargin);
+    const std::size_t size = rays + kPacket;
+    slope_x_.reset(new float[size]);
+    slope_y_.reset(new float[size]);
+    start_m_.reset(new float[size]);
+    ray_.reset(new std::uint32_t[size]);
+    list_ = {slope_x_.get(), slope_y_.get(), start_m_.get(), ray_.get(), 0};
   }
 
-  ChildList& children() { return children_; }
+  ChildList& empty() {
+    list_.count = 0;
+    return list_;
+  }
 
-  /// The rays, and whole packets of zeros behind them.
-  RayList list() {
-    const std::uint32_t end = std::min(size_, (children_.count + kPacket - 1) / kPacket * kPacket);
-    for (float* field : {children_.slope_x, children_.slope_y, children_.start_m})
-      std::fill(field + children_.count, field + end, 0.0f);
-    std::fill(children_.ray + children_.count, children_.ray + end, 0u);
-    return {children_.slope_x, children_.slope_y, children_.start_m, children_.ray, nullptr, children_.count};
+  /// The rays, and zeros up to a whole packet behind them.
+  RayList rays() {
+    const std::uint32_t end = (list_.count + kPacket - 1) / kPacket * kPacket;
+    for (float* field : {list_.slope_x, list_.slope_y, list_.start_m})
+      std::fill(field + list_.count, field + end, 0.0f);
+    std::fill(list_.ray + list_.count, list_.ray + end, 0u);
+    return {list_.slope_x, list_.slope_y, list_.start_m, list_.ray, nullptr, list_.count};
   }
 
  private:
-  static constexpr std::uint32_t kPacket = 16;
-  static_assert(kPacket >= RayLevel::kSlopeMargin);
-  std::uint32_t size_;
-  std::unique_ptr<float[]> slopes_and_starts_;
-  std::unique_ptr<std::uint32_t[]> rays_;
-  ChildList children_;
+  std::unique_ptr<float[]> slope_x_, slope_y_, start_m_;
+  std::unique_ptr<std::uint32_t[]> ray_;
+  ChildList list_;
 };
+
+/// Part of a list; `first` is a multiple of kPacket.
+RayList sliceOf(const RayList& list, std::uint32_t first) {
+  return {list.slope_x + first,
+          list.slope_y + first,
+          list.start_m ? list.start_m + first : nullptr,
+          list.ray + first,
+          list.lanes ? list.lanes + first / kPacket : nullptr,
+          std::min(list.count - first, kSlice)};
+}
 
 /// All rays of a level, from the sensor.
 RayList allRays(const RayLevel& level) {
@@ -69,17 +85,63 @@ RayCounts blockedView() {
   return counts;
 }
 
-Refinement refinementOf(const HierarchicalView& view, const RayTree& tree, int level,
-                        const HierarchicalQuery& query, ChildList& children) {
-  const RayLevel &coarse = tree.level(level), &fine = tree.level(level - 1);
-  return {coarse.families.data(),
-          fine.slope_x.data(),
-          fine.slope_y.data(),
-          fine.columns.count(),
-          view.step_back_m[level],
-          query.refine_unknown,
-          &children};
-}
+/// Casts lists of rays level by level.
+class Descent {
+ public:
+  Descent(CpuPath path, const HierarchicalView& view, const RayTree& tree, const HierarchicalQuery& query,
+          RayCounts& counts)
+      : cast_(castListFor(path)), view_(view), tree_(tree), query_(query), counts_(counts) {
+    for (int i = 0; i < view.coarse_levels; ++i) buffers_.emplace_back(roomFor(i));
+    if (query.distinct_voxels) totals_.hits = &hits_;
+  }
+
+  void run() {
+    castList(view_.coarse_levels, allRays(tree_.level(view_.coarse_levels)));
+    take(totals_, counts_);
+    takeVoxels(hits_, counts_);
+  }
+
+ private:
+  /// Most children of a slice of the next coarser level.
+  std::uint32_t roomFor(int level) const {
+    std::uint32_t most = 0;
+    for (const RayFamily& family : tree_.level(level + 1).families)
+      most = std::max<std::uint32_t>(most, family.rows * family.columns);
+    return std::min(tree_.level(level).count(), most * kSlice);
+  }
+
+  void castList(int level, const RayList& list) {
+    if (level == 0) return cast_(view_.bundles[0], list, {}, totals_);
+    for (std::uint32_t first = 0; first < list.count; first += kSlice) {
+      RayBuffer& buffer = buffers_[level - 1];
+      cast_(view_.bundles[level], sliceOf(list, first), refinementOf(level, buffer.empty()), totals_);
+      const RayList children = buffer.rays();
+      counts_.rays_cast += children.count;
+      if (level == 1) counts_.finest_rays_cast += children.count;
+      castList(level - 1, children);
+    }
+  }
+
+  Refinement refinementOf(int level, ChildList& children) const {
+    const RayLevel &coarse = tree_.level(level), &fine = tree_.level(level - 1);
+    return {coarse.families.data(),
+            fine.slope_x.data(),
+            fine.slope_y.data(),
+            fine.columns.count(),
+            view_.step_back_m[level],
+            query_.refine_unknown,
+            &children};
+  }
+
+  CastList cast_;
+  const HierarchicalView& view_;
+  const RayTree& tree_;
+  const HierarchicalQuery& query_;
+  RayCounts& counts_;
+  std::vector<RayBuffer> buffers_;  ///< of the levels below the start
+  Totals totals_;
+  std::vector<Hit> hits_;
+};
 
 }  // namespace
 
@@ -93,23 +155,7 @@ RayCounts castHierarchicalOn(CpuPath path, const StatePyramid& pyramid, const Ra
   if (coarse_levels == 0) counts.finest_rays_cast = counts.rays_cast;
   if (!view.reaches) return counts;
 
-  const CastList cast = castListFor(path);
-  Totals totals;
-  RayList list = allRays(tree.level(coarse_levels));
-  std::unique_ptr<RayBuffer> held;
-  for (int i = coarse_levels; i > 0; --i) {
-    auto children = std::make_unique<RayBuffer>(tree.level(i - 1).count());
-    cast(view.bundles[i], list, refinementOf(view, tree, i, query, children->children()), totals);
-    list = children->list();
-    counts.rays_cast += list.count;
-    if (i == 1) counts.finest_rays_cast = list.count;
-    held = std::move(children);
-  }
-  std::vector<Hit> hits;
-  if (query.distinct_voxels) totals.hits = &hits;
-  cast(view.bundles[0], list, {}, totals);
-  take(totals, counts);
-  takeVoxels(hits, counts);
+  Descent(path, view, tree, query, counts).run();
   return counts;
 }
 

@@ -68,6 +68,7 @@ void fillSlopes(RayLevel& level) {
   level.slope_y.resize(level.count() + RayLevel::kSlopeMargin, 0.0f);
 }
 
+// Lanes in Morton order: four neighbouring parents are a square, and so are their children in a packet.
 void fillTiles(RayLevel& level) {
   RayTiles& tiles = level.tiles;
   const std::uint32_t rows = level.rows.count(), columns = level.columns.count();
@@ -75,7 +76,7 @@ void fillTiles(RayLevel& level) {
     for (std::uint32_t left = 0; left < columns; left += 4) {
       unsigned lanes = 0;
       for (std::uint32_t k = 0; k < 16; ++k) {
-        const std::uint32_t row = top + k / 4, column = left + k % 4;
+        const std::uint32_t row = top + (k >> 1 & 1) + (k >> 2 & 2), column = left + (k & 1) + (k >> 1 & 2);
         if (row < rows && column < columns) lanes |= 1u << k;
         const std::uint32_t ray = level.index(std::min(row, rows - 1), std::min(column, columns - 1));
         tiles.ray.push_back(ray);
