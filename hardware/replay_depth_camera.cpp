@@ -37,6 +37,13 @@ std::vector<Pose> ReplayDepthCamera::recordedPoses() const {
   return poses;
 }
 
+std::vector<ScanPose> ReplayDepthCamera::posesLeft() const {
+  std::vector<ScanPose> poses;
+  for (std::size_t i = 0; i < served_.size(); ++i)
+    if (!served_[i]) poses.push_back({dataset_.frames[i].T_world_camera, dataset_.frames[i].number});
+  return poses;
+}
+
 std::size_t ReplayDepthCamera::framesLeft() const {
   return static_cast<std::size_t>(std::count(served_.begin(), served_.end(), false));
 }

@@ -23,6 +23,7 @@ class ReplayDepthCamera : public DepthCamera {
   /// Empty when every frame has been served. \throws InputError if the image is damaged.
   std::optional<DepthFrame> capture(const Pose& T_world_camera, std::uint64_t index) override;
   std::vector<Pose> recordedPoses() const override;
+  std::vector<ScanPose> posesLeft() const override;
 
   const Dataset& dataset() const { return dataset_; }
   std::size_t framesLeft() const;

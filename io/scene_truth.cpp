@@ -180,6 +180,20 @@ bool SceneTruth::insideSolid(const Vector3d& p_world) const {
   return !data_->clear(p_world, 0.0);
 }
 
+std::vector<Box> SceneTruth::knownBoxes() const {
+  std::vector<Box> boxes;
+  for (const Solid& solid : data_->scene.solids)
+    if (solid.role() != SolidRole::Object) boxes.push_back(solid.bounds());
+  return boxes;
+}
+
+bool SceneTruth::insideKnown(const Vector3d& p_world) const {
+  return std::ranges::any_of(data_->scene.solids, [&](const Solid& solid) {
+    return solid.role() != SolidRole::Object && solid.bounds().contains(p_world) &&
+           solid.signedDistance(p_world) <= 0.0;
+  });
+}
+
 std::vector<Box> SceneTruth::objectBoxes() const {
   std::vector<Box> boxes;
   for (const Object& object : data_->objects) boxes.push_back(object.bounds);

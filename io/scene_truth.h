@@ -30,6 +30,8 @@ class SceneTruth : public GroundTruth {
   double objectDistance(const Eigen::Vector3d& p_world) const override;
   bool insideSolid(const Eigen::Vector3d& p_world) const override;
   std::vector<Box> objectBoxes() const override;
+  std::vector<Box> knownBoxes() const override;
+  bool insideKnown(const Eigen::Vector3d& p_world) const override;
   int objectAt(const Eigen::Vector3d& p_world, double within_m) const override;
   /// Computed when first asked for, in parallel; the same points in the same order each time. Points inside
   /// other solids or within 1 mm of them are left out.

@@ -1,11 +1,12 @@
 #include "core/exploration/explorer.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/exploration/map_metrics.h"
 #include "core/exploration/plan_view.h"
 #include "core/exploration/stopwatch.h"
-#include "core/geometry/check.h"
 
 namespace vantage {
 namespace {
@@ -24,35 +25,37 @@ std::string_view toString(Stage stage) {
   return kNames[static_cast<int>(stage)];
 }
 
-void ExplorationConfig::validate() const {
-  planner.validate();
-  requireInRange("volume.voxel_size_m", volume.voxel_size_m, 1e-4, 1.0);
-  for (int a = 0; a < 3; ++a) {
-    requireInRange("volume.size", volume.size[a], 2, 1 << 20);
-    requireInRange("workspace.max_m", workspace.max()[a], workspace.min()[a], 1e6);
-  }
-  fusion.validate(volume.voxel_size_m);
-  scan.validate();
-  requireInRange("exploration.steps", steps, 0, 100000);
-}
-
 struct Explorer::State {
   State(ExplorationConfig config_, DepthCamera& camera_, Robot& robot_, const GroundTruth* truth_)
       : config(std::move(config_)),
         camera(camera_),
         robot(robot_),
         truth(truth_),
-        volume(config.volume),
-        states(config.volume),
-        metrics(config.volume, config.workspace, truth_) {}
+        object_box(config.objectBox()),
+        world(config.world()),
+        metrics(mainStates().geometry(), config.workspace, truth_) {
+    if (config.needsOctree()) prepareOctree();
+  }
+
+  /// Rays for its resolution; where a recorded camera has been, there is nothing (D-A10).
+  void prepareOctree() {
+    tree = RayTree(config.hierarchical.sensor, config.octree.voxel_size_m, config.hierarchical.coarse_levels);
+    const double body_m = config.hierarchical.body_m / 2 + 2 * config.octree.voxel_size_m;
+    for (const Pose& pose : camera.recordedPoses())
+      world.clearOctree(pose.translation(), std::sqrt(3.0) * body_m);
+    if (truth && config.octree.known_scene)
+      for (const Box& box : truth->knownBoxes())
+        world.occupyOctree(box, [&](const Eigen::Vector3d& p) { return truth->insideKnown(p); });
+  }
 
   ExplorationConfig config;
   DepthCamera& camera;
   Robot& robot;
   const GroundTruth* truth;
-  TsdfVolume volume;
-  StateGrid states;
+  Box object_box;
+  WorldModel world;
   MapMetricsCounter metrics;
+  RayTree tree;
   std::vector<StepObserver> observers;
   Exclusions exclusions;
   std::uint64_t frames_taken = 0;
@@ -63,15 +66,29 @@ struct Explorer::State {
     for (const StepObserver& observer : observers) observer(snapshot);
   }
 
+  /// States of the map that the metrics are about.
+  const StateGrid& mainStates() const {
+    return world.volume() ? *world.surfaceStates() : world.pyramid()->finest();
+  }
+  const StateGrid& statesFor(PlannerKind kind) const {
+    return usesOctree(kind) ? world.pyramid()->finest() : *world.surfaceStates();
+  }
   bool isReplay() const { return !camera.recordedPoses().empty(); }
   std::vector<Pose> startPoses() const;
   bool scanInto(StepRecord& record, const std::vector<Pose>& poses, bool clear_start,
                 const RunControl& control);
   std::vector<Pose> scanPoses(const std::optional<StepRecord>& previous) const;
   bool observe(StepRecord& record, std::optional<StepRecord>& previous, const RunControl& control);
+  ReachPose reachIn(const StepRecord& record, MotionPlan& reported);
+  bool servable(const Pose& pose) const;
   void plan(StepRecord& record, const RunControl& control);
+  void planContour(StepRecord& record, const ReachPose& reach,
+                   const std::function<void(Stage)>& publish_stage, const RunControl& control);
+  void planHierarchical(StepRecord& record, const ReachPose& reach,
+                        const std::function<void(Stage)>& publish_stage, const RunControl& control);
   void move(StepRecord& record);
   void close(StepRecord& record);
+  void measureMap(StepRecord& record) const;
   void measureCoverage(StepRecord& record) const;
   void markTowardObject(StepRecord& record) const;
   void realise(StepRecord& previous, const StepRecord& scanned, std::uint64_t unknown_before);
@@ -90,7 +107,6 @@ std::vector<Pose> Explorer::State::startPoses() const {
 bool Explorer::State::scanInto(StepRecord& record, const std::vector<Pose>& poses, bool clear_start,
                                const RunControl& control) {
   double sense_s = 0.0, fuse_s = 0.0;
-  BrickSet changed(volume.bricks().total());
   DepthFrame last;
   for (std::size_t p = 0; p < poses.size(); ++p) {
     control.check();
@@ -103,10 +119,7 @@ bool Explorer::State::scanInto(StepRecord& record, const std::vector<Pose>& pose
     const Stopwatch fusing;
     // The sensor has been here: its own neighbourhood is empty (D-B28), all along the way of the initial
     // scan.
-    if (clear_start)
-      changed.merge(clearSphere(volume, frame->T_world_camera.translation(), config.scan.clear_radius_m));
-    changed.merge(
-        fuseDepth(volume, frame->depth, camera.model(), frame->T_world_camera, config.fusion).changed);
+    world.fuse(*frame, camera.model(), clear_start ? config.scan.clear_radius_m : 0.0);
     fuse_s += fusing.seconds();
     record.scan.push_back({frame->T_world_camera, frame->frame});
     last = std::move(*frame);
@@ -118,27 +131,43 @@ bool Explorer::State::scanInto(StepRecord& record, const std::vector<Pose>& pose
   publish(record, Stage::Sense);
 
   const Stopwatch updating;
-  states.update(volume, changed);
+  const MapChanges changes = world.finishScan();
   record.timings.fuse = fuse_s + updating.seconds();
-  std::vector<TsdfBrick> bricks;
-  for (const std::uint32_t brick : changed.list()) bricks.push_back({brick, volume.brick(brick)});
-  record.changed_bricks = share(std::move(bricks));
-  record.metrics = metrics.count(states);
+  record.changed_bricks = changes.volume;
+  record.changed_octree_bricks = changes.octree;
+  measureMap(record);
   publish(record, Stage::Fuse);
   return true;
 }
 
-void Explorer::State::plan(StepRecord& record, const RunControl& control) {
-  const Stopwatch mapping;
-  robot.observe(states);
-  record.timings.collision_map = mapping.seconds();
+/// Recorded data: a frame that is left was taken near enough (evaluation.md, A3).
+bool Explorer::State::servable(const Pose& pose) const {
+  if (!isReplay() || config.serve_distance_m <= 0.0) return true;
+  return std::ranges::any_of(camera.posesLeft(), [&](const ScanPose& left) {
+    return (left.T_world_camera.translation() - pose.translation()).norm() <= config.serve_distance_m &&
+           angleBetween(left.T_world_camera, pose) <= config.serve_angle_rad;
+  });
+}
 
-  std::uint64_t tried = 0;
-  MotionPlan reported;  // where the verdict is only reported: of the last pose asked for, i.e. the chosen one
-  const ReachPose reach = [&](const Pose& pose) {
-    return judged(robot.plan(pose, pathSeed(config.seed, record.step, tried++)), config.enforce_reachability,
+ReachPose Explorer::State::reachIn(const StepRecord& record, MotionPlan& reported) {
+  return [&, step = record.step, tried = std::uint64_t{0}](const Pose& pose) mutable {
+    if (!servable(pose)) {
+      MotionPlan none;
+      none.verdict = Reachability::NoFrame;
+      return none;
+    }
+    return judged(robot.plan(pose, pathSeed(config.seed, step, tried++)), config.enforce_reachability,
                   reported);
   };
+}
+
+void Explorer::State::plan(StepRecord& record, const RunControl& control) {
+  const PlannerKind kind = config.plannerOf(record.step);
+  const Stopwatch mapping;
+  robot.observe(statesFor(kind));
+  record.timings.collision_map = mapping.seconds();
+
+  MotionPlan reported;  // where the verdict is only reported: of the last pose asked for, i.e. the chosen one
   const auto publish_stage = [&](Stage stage) {
     if (stage == Stage::Surface) measureCoverage(record);
     if (stage == Stage::Evaluation) {
@@ -147,39 +176,94 @@ void Explorer::State::plan(StepRecord& record, const RunControl& control) {
     }
     publish(record, stage);
   };
-  const PlanViewInput input{.volume = volume,
-                            .states = states,
+  const ReachPose reach = reachIn(record, reported);
+  if (usesOctree(kind)) {
+    measureCoverage(record);
+    planHierarchical(record, reach, publish_stage, control);
+  } else {
+    planContour(record, reach, publish_stage, control);
+  }
+}
+
+void Explorer::State::planContour(StepRecord& record, const ReachPose& reach,
+                                  const std::function<void(Stage)>& publish_stage,
+                                  const RunControl& control) {
+  ContourPlannerConfig planner = config.contour;
+  planner.segment_by_segment = config.plannerOf(record.step) == PlannerKind::Contour;
+  const PlanViewInput input{.volume = *world.volume(),
+                            .states = *world.surfaceStates(),
                             .camera = camera.model(),
                             .workspace = config.workspace,
-                            .config = config.planner,
+                            .config = planner,
                             .executed = exclusions.executed,
                             .disappointing = exclusions.disappointing};
   planView(record, input, reach, publish_stage, control);
 }
 
+void Explorer::State::planHierarchical(StepRecord& record, const ReachPose& reach,
+                                       const std::function<void(Stage)>& publish_stage,
+                                       const RunControl& control) {
+  HierarchicalPlannerConfig planner = config.hierarchical;
+  if (config.plannerOf(record.step) == PlannerKind::Uniform) planner.coarse_levels = 0;
+  const std::vector<ScanPose> recorded =
+      config.recorded_candidates ? camera.posesLeft() : std::vector<ScanPose>();
+  const Pose current = robot.cameraPose();
+  const Box bounds = config.volume.bounds();
+  const PlanUtilityInput input{.pyramid = *world.pyramid(),
+                               .tree = tree,
+                               .object_box = object_box,
+                               .workspace = bounds,
+                               .recorded = recorded,
+                               .current = current,
+                               .config = planner,
+                               .executed = exclusions.executed,
+                               .seed = pathSeed(config.seed, record.step, 0)};
+  planUtility(record, input, reach, publish_stage, control);
+}
+
+void Explorer::State::measureMap(StepRecord& record) const {
+  record.metrics = metrics.count(mainStates());
+  if (!world.pyramid()) return;
+  const StateGrid& states = world.pyramid()->finest();
+  record.box = share(BoxMetrics{states.count(VoxelState::Unknown, object_box),
+                                states.count(VoxelState::Occupied, object_box)});
+}
+
+/// By the fused surface, or by occupied voxels where the octree is the only map (evaluation.md, section 2).
 void Explorer::State::measureCoverage(StepRecord& record) const {
-  if (truth) record.metrics.coverage = surfaceCoverage(truth->observableSurface(), *record.surface);
+  if (!truth) return;
+  const auto covered = [&](const std::vector<Eigen::Vector3f>& points, double distance_m) {
+    record.metrics.coverage = surfaceCoverage(truth->observableSurface(), points, distance_m);
+  };
+  if (record.surface) return covered(record.surface->points, kCoverageDistance_m);
+  if (world.volume())
+    return covered(extractSurface(*world.volume(), config.contour.contours.weight_threshold).points,
+                   kCoverageDistance_m);
+  covered(occupiedCenters(world.pyramid()->finest(), object_box), config.octree.voxel_size_m);
 }
 
 /// evaluation.md, section 2.
 void Explorer::State::markTowardObject(StepRecord& record) const {
-  if (!truth || !record.hasView()) return;
+  if (!truth || !record.search || !record.search->chosen) return;
   const ContourPoint& point = record.contours->points[record.search->chosen->contour_point];
   record.toward_object = truth->objectDistance(point.position_m) <= kObjectMargin_m;
 }
 
 std::uint64_t Explorer::State::unknownInRegion(const StepRecord& record) const {
-  const SegmentSearch& segment = record.search->segments[record.search->chosen->search];
-  if (!config.planner.segment_by_segment) return states.count(VoxelState::Unknown, config.workspace);
-  return countUnknown(states, segment.sphere);
+  const PlannerKind kind = config.plannerOf(record.step);
+  const StateGrid& states = statesFor(kind);
+  if (usesOctree(kind)) return states.count(VoxelState::Unknown, object_box);
+  if (kind == PlannerKind::Standard) return states.count(VoxelState::Unknown, config.workspace);
+  return countUnknown(states, record.search->segments[record.search->chosen->search].sphere);
 }
 
-/// Realised gain: a voxel once seen stays seen, so it is the drop of the unknown in the region
-/// (evaluation.md, section 2).
+/// Realised gain: the drop of the unknown in the region (evaluation.md, section 2). A voxel of the TSDF once
+/// seen stays seen; the octree may forget some again (a hit and two misses), then it is what is left of the
+/// gain.
 void Explorer::State::realise(StepRecord& previous, const StepRecord& scanned, std::uint64_t unknown_before) {
-  previous.realised_voxels = unknown_before - unknownInRegion(previous);
+  previous.realised_voxels = unknown_before - std::min(unknown_before, unknownInRegion(previous));
   if (isReplay()) previous.served = scanned.scan.back();
-  exclusions.add(previous, config.planner.gain);
+  exclusions.add(previous, config.contour.gain);
   publish(previous, Stage::Realised);
 }
 
@@ -193,17 +277,14 @@ Explorer::~Explorer() = default;
 void Explorer::addObserver(StepObserver observer) {
   state_->observers.push_back(std::move(observer));
 }
-const TsdfVolume& Explorer::volume() const {
-  return state_->volume;
-}
-const StateGrid& Explorer::states() const {
-  return state_->states;
+const WorldModel& Explorer::world() const {
+  return state_->world;
 }
 
 /// Along the arc at the start, at the last view later; recorded data serve one frame a view.
 std::vector<Pose> Explorer::State::scanPoses(const std::optional<StepRecord>& previous) const {
   if (!previous) return startPoses();
-  const Pose& view = previous->search->chosen->T_world_camera;
+  const Pose& view = previous->chosen()->T_world_camera;
   return isReplay() ? std::vector<Pose>{view} : tiltedScanPoses(view, config.scan);
 }
 
@@ -221,14 +302,15 @@ bool Explorer::State::observe(StepRecord& record, std::optional<StepRecord>& pre
 
 void Explorer::State::move(StepRecord& record) {
   if (!record.hasView()) return;
-  const MotionPlan& path = record.search->chosen->path;
+  const MotionPlan& path = record.chosen()->path;
   if (path.verdict == Reachability::Reachable) record.timings.motion = robot.execute(path);
   publish(record, Stage::Motion);
 }
 
 /// What is left to say after the last scan.
 void Explorer::State::close(StepRecord& record) {
-  record.surface = share(extractSurface(volume, config.planner.contours.weight_threshold));
+  if (world.volume())
+    record.surface = share(extractSurface(*world.volume(), config.contour.contours.weight_threshold));
   measureCoverage(record);
   publish(record, Stage::Done);
 }
@@ -242,7 +324,7 @@ ExplorationResult Explorer::run(const RunControl& control) {
       StepRecord record;
       record.step = step;
       record.closing = step > s.config.steps;
-      record.planner = s.config.planner.segment_by_segment ? kPlannerContour : kPlannerStandard;
+      record.planner = toString(s.config.plannerOf(step));
 
       if (!s.observe(record, previous, control)) {
         result.stop_reason = "no frames left";

@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "core/exploration/planner_kind.h"
 #include "core/exploration/ports.h"
 #include "core/exploration/step_record.h"
+#include "core/exploration/world_model.h"
 #include "core/run_control.h"
 
 namespace vantage {
@@ -27,20 +29,34 @@ struct ScanConfig {
 };
 
 struct ExplorationConfig {
-  ContourPlannerConfig planner;
+  /// Planner of each NBV in turn, not empty; the last one goes on.
+  std::vector<PlannerKind> planners = {PlannerKind::Contour};
+  ContourPlannerConfig contour;  ///< its segment_by_segment follows the planner of the step
+  HierarchicalPlannerConfig hierarchical;
+  OctreeMapConfig octree;
   FusionConfig fusion;
   ScanConfig scan;
   GridGeometry volume = {{-1.5, -1.0, -0.05}, 3.0 / 512.0, {512, 341, 200}};
   Box workspace = {Eigen::Vector3d(-1.0, -0.66, 0.0), Eigen::Vector3d(1.0, 0.66, 1.0)};
   int steps = 5;                     ///< NBVs
   bool enforce_reachability = true;  ///< false: obstacles and paths are only reported (replayed data)
+  /// Recorded data: views are offered only if a frame that is left was taken this near, metres and radians; 0
+  /// = the nearest frame serves, however far.
+  double serve_distance_m = 0.0;
+  double serve_angle_rad = 0.17453292519943295;  ///< 10 deg
+  bool recorded_candidates =
+      false;  ///< recorded data: the poses left are candidates of the hierarchical planner
   std::uint64_t seed = 1;
   void validate() const;
-};
 
-/// Names of the planners, in the order of help texts.
-inline constexpr const char* kPlannerContour = "contour";
-inline constexpr const char* kPlannerStandard = "standard";
+  PlannerKind plannerOf(int step) const;  ///< step >= 1
+  bool needsVolume() const;               ///< some planner works on the TSDF
+  bool needsOctree() const;               ///< some planner works on the octree
+  /// The object's box: OctreeMapConfig::object_box, else the workspace.
+  Box objectBox() const;
+  /// What the maps are made of.
+  WorldConfig world() const;
+};
 
 struct ExplorationResult {
   std::string stop_reason;  ///< "steps done", "finished", "no frames left" or "cancelled"
@@ -60,8 +76,7 @@ class Explorer {
   /// the result says "cancelled".
   ExplorationResult run(const RunControl& control);
 
-  const TsdfVolume& volume() const;
-  const StateGrid& states() const;
+  const WorldModel& world() const;
 
  private:
   struct State;

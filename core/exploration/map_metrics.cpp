@@ -87,10 +87,11 @@ MapMetrics MapMetricsCounter::count(const StateGrid& states) const {
   return metrics;
 }
 
-double surfaceCoverage(const std::vector<Eigen::Vector3f>& truth, const SurfaceCloud& surface) {
-  if (truth.empty() || surface.points.empty()) return 0.0;
+double surfaceCoverage(const std::vector<Eigen::Vector3f>& truth, const std::vector<Eigen::Vector3f>& seen,
+                       double distance_m) {
+  if (truth.empty() || seen.empty()) return 0.0;
   // Cells of the search distance: a neighbour within it lies in one of 27 cells.
-  const float cell = static_cast<float>(kCoverageDistance_m);
+  const float cell = static_cast<float>(distance_m);
   Eigen::AlignedBox3f box;
   for (const auto& p : truth) box.extend(p);
   const Eigen::Vector3f low = box.min() - Eigen::Vector3f::Constant(cell);
@@ -106,13 +107,13 @@ double surfaceCoverage(const std::vector<Eigen::Vector3f>& truth, const SurfaceC
   };
   std::vector<std::uint32_t> start(static_cast<std::size_t>(size.x()) * size.y() * size.z() + 1, 0);
   std::vector<std::uint32_t> order;
-  for (const auto& p : surface.points)
+  for (const auto& p : seen)
     if (const Eigen::Vector3i c = cellOf(p); inside(c)) ++start[linear(c) + 1];
   std::partial_sum(start.begin(), start.end(), start.begin());
   order.resize(start.back());
   std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
-  for (std::uint32_t n = 0; n < surface.points.size(); ++n)
-    if (const Eigen::Vector3i c = cellOf(surface.points[n]); inside(c)) order[next[linear(c)]++] = n;
+  for (std::uint32_t n = 0; n < seen.size(); ++n)
+    if (const Eigen::Vector3i c = cellOf(seen[n]); inside(c)) order[next[linear(c)]++] = n;
 
   const auto covered = [&](const Eigen::Vector3f& p) {
     const Eigen::Vector3i center = cellOf(p);
@@ -122,13 +123,25 @@ double surfaceCoverage(const std::vector<Eigen::Vector3f>& truth, const SurfaceC
           const Eigen::Vector3i c = center + Eigen::Vector3i(dx, dy, dz);
           if (!inside(c)) continue;
           for (std::uint32_t n = start[linear(c)]; n < start[linear(c) + 1]; ++n)
-            if ((surface.points[order[n]] - p).squaredNorm() <= cell * cell) return true;
+            if ((seen[order[n]] - p).squaredNorm() <= cell * cell) return true;
         }
     return false;
   };
   std::vector<std::uint8_t> hit(truth.size(), 0);
   tbb::parallel_for(std::size_t{0}, truth.size(), [&](std::size_t n) { hit[n] = covered(truth[n]); });
   return static_cast<double>(std::count(hit.begin(), hit.end(), 1)) / static_cast<double>(truth.size());
+}
+
+std::vector<Eigen::Vector3f> occupiedCenters(const StateGrid& states, const Box& box) {
+  const GridGeometry& geometry = states.geometry();
+  const Eigen::Vector3d edge = Eigen::Vector3d::Constant(geometry.voxel_size_m);
+  std::vector<Eigen::Vector3f> centers;
+  const VoxelRange range = voxelsIn(geometry, Box(box.min() - edge, box.max() + edge));
+  for (const std::uint32_t v : collect(geometry, range, [&](const Eigen::Vector3d& p) {
+         return states.at(geometry.voxelAt(p)) == VoxelState::Occupied;
+       }))
+    centers.push_back(geometry.center(geometry.voxel(v)).cast<float>());
+  return centers;
 }
 
 std::uint64_t countUnknown(const StateGrid& states, const Sphere& sphere) {

@@ -30,8 +30,13 @@ class MapMetricsCounter {
   std::vector<std::uint32_t> in_boxes_;
 };
 
-/// Share of `truth` points that have a vertex of `surface` within kCoverageDistance_m; 0 if there are none.
-double surfaceCoverage(const std::vector<Eigen::Vector3f>& truth, const SurfaceCloud& surface);
+/// Share of `truth` points that have a point of `seen` within `distance_m`; 0 if there are none.
+double surfaceCoverage(const std::vector<Eigen::Vector3f>& truth, const std::vector<Eigen::Vector3f>& seen,
+                       double distance_m);
+
+/// Centres of the occupied voxels in a box grown by one voxel, ascending by index: what an octree knows of
+/// the surface.
+std::vector<Eigen::Vector3f> occupiedCenters(const StateGrid& states, const Box& box);
 
 /// Unknown voxels whose centre lies in the ball.
 std::uint64_t countUnknown(const StateGrid& states, const Sphere& sphere);

@@ -27,16 +27,22 @@ MotionPlan judged(MotionPlan plan, bool enforce, MotionPlan& reported) {
 
 void reportMotion(StepRecord& record, const MotionPlan& reported) {
   if (!record.hasView()) return;
-  ViewSearch search = *record.search;
-  search.chosen->path = reported;
-  record.search = std::make_shared<const ViewSearch>(std::move(search));
+  const auto replace = [&](auto& product) {
+    if (!product || !product->chosen) return;
+    const auto changed = std::make_shared<std::remove_cvref_t<decltype(*product)>>(*product);
+    changed->chosen->path = reported;
+    product = changed;
+  };
+  replace(record.search);
+  replace(record.utilities);
 }
 
 void Exclusions::add(const StepRecord& record, const GainConfig& config) {
   if (!record.hasView()) return;
-  const ChosenView& chosen = *record.search->chosen;
-  executed.push_back(chosen.T_world_camera);
+  executed.push_back(record.chosen()->T_world_camera);
   if (record.served) executed.push_back(record.served->T_world_camera);
+  if (!record.search) return;
+  const ContourChosenView& chosen = *record.search->chosen;
   if (config.exclude_disappointing && record.realised_voxels &&
       static_cast<double>(*record.realised_voxels) <
           config.disappointing_share * static_cast<double>(chosen.gain_voxels))
@@ -91,6 +97,32 @@ void planView(StepRecord& record, const PlanViewInput& input, const ReachPose& r
   t.evaluation = record.search->evaluation_s;
   t.motion_planning = record.search->motion_planning_s;
   finish(Stage::Evaluation);
+}
+
+void planUtility(StepRecord& record, const PlanUtilityInput& input, const ReachPose& reach,
+                 const std::function<void(Stage)>& publish, const RunControl& control) {
+  Timings& t = record.timings;
+  const auto candidates = timed(t.generation, [&] {
+    auto views = makeCandidates(input.config, input.object_box, input.workspace, input.seed);
+    for (const ScanPose& pose : input.recorded)
+      views.push_back({static_cast<std::uint32_t>(views.size()), pose.T_world_camera, pose.frame});
+    return views;
+  });
+  publish(Stage::Generation);
+  control.check();
+
+  const UtilityInput search_input{.pyramid = input.pyramid,
+                                  .tree = input.tree,
+                                  .object_box = input.object_box,
+                                  .candidates = *candidates,
+                                  .current = input.current,
+                                  .executed = input.executed};
+  record.utilities =
+      std::make_shared<const UtilitySearch>(searchUtility(search_input, input.config, reach, control));
+  t.evaluation = record.utilities->evaluation_s;
+  t.motion_planning = record.utilities->motion_planning_s;
+  publish(Stage::Evaluation);
+  control.check();
 }
 
 }  // namespace vantage

@@ -21,6 +21,19 @@ struct PlanViewInput {
   std::span<const Eigen::Vector3d> disappointing = {};  ///< contour points not to be offered again (D-B33)
 };
 
+/// What one planning step of the hierarchical planner needs to know.
+struct PlanUtilityInput {
+  const StatePyramid& pyramid;
+  const RayTree& tree;
+  const Box& object_box;
+  const Box& workspace;                     ///< where workspace views are drawn
+  std::span<const ScanPose> recorded = {};  ///< offered beside the generated candidates
+  const Pose& current;                      ///< p.q of eq. 5
+  const HierarchicalPlannerConfig& config;
+  std::span<const Pose> executed = {};  ///< poses taken so far
+  std::uint64_t seed = 1;               ///< of the step's workspace views
+};
+
 /// Seed of the path planner for the n-th pose tried in a step.
 inline std::uint64_t pathSeed(std::uint64_t run_seed, int step, std::uint64_t tried) {
   return (run_seed << 32) + static_cast<std::uint64_t>(step) * 1000003 + tried;
@@ -47,5 +60,11 @@ struct Exclusions {
 /// \throws Cancelled
 void planView(StepRecord& record, const PlanViewInput& input, const ReachPose& reach,
               const std::function<void(Stage)>& publish, const RunControl& control);
+
+/// Steps 3-5 of Algorithm 1, Vasquez-Gomez et al. 2013: candidates, cascade, choice. Calls `publish` after
+/// the stages Generation and Evaluation. The uniform baseline is the same with no coarse levels. \throws
+/// Cancelled
+void planUtility(StepRecord& record, const PlanUtilityInput& input, const ReachPose& reach,
+                 const std::function<void(Stage)>& publish, const RunControl& control);
 
 }  // namespace vantage

@@ -19,6 +19,12 @@ struct DepthFrame {
   int frame = -1;  ///< number in a recorded sequence, -1 for others
 };
 
+/// Where the frames of a scan were taken.
+struct ScanPose {
+  Pose T_world_camera = Pose::Identity();
+  int frame = -1;  ///< number in a recorded sequence
+};
+
 /// A depth camera that is moved by somebody else.
 class DepthCamera {
  public:
@@ -29,6 +35,8 @@ class DepthCamera {
   virtual std::optional<DepthFrame> capture(const Pose& T_world_camera, std::uint64_t index) = 0;
   /// Poses at which a replayed device can start (recorded order); empty for devices that can go anywhere.
   virtual std::vector<Pose> recordedPoses() const { return {}; }
+  /// Those of them whose frame has not been served yet.
+  virtual std::vector<ScanPose> posesLeft() const { return {}; }
 };
 
 /// Whatever carries the camera.
@@ -58,6 +66,10 @@ class GroundTruth {
   virtual bool insideSolid(const Eigen::Vector3d& p_world) const = 0;
   /// Bounding boxes of the true objects.
   virtual std::vector<Box> objectBoxes() const = 0;
+  /// Bounding boxes of what is no object: table, panel, room.
+  virtual std::vector<Box> knownBoxes() const = 0;
+  /// True inside any of that.
+  virtual bool insideKnown(const Eigen::Vector3d& p_world) const = 0;
   /// Surface points of the objects, one per 4 mm^2, that some feasible view can see (evaluation.md section
   /// 2).
   virtual const std::vector<Eigen::Vector3f>& observableSurface() const = 0;

@@ -112,8 +112,9 @@ void FreeFlyerConfig::validate() const {
 }
 
 std::string_view tokenOf(Reachability r) {
-  constexpr std::string_view kTokens[kReachabilityCount] = {
-      "reachable", "out_of_reach", "in_collision", "not_connected", "no_path", "timed_out", "not_checked"};
+  constexpr std::string_view kTokens[kReachabilityCount] = {"reachable",     "out_of_reach", "in_collision",
+                                                            "not_connected", "no_path",      "timed_out",
+                                                            "not_checked",   "no_frame"};
   return kTokens[static_cast<int>(r)];
 }
 
@@ -129,6 +130,8 @@ std::string_view toString(Reachability r) {
       return "no free space leads there from the current position";
     case Reachability::NoPath:
       return "the path planner found no way within its iterations";
+    case Reachability::NoFrame:
+      return "no recorded frame that is left was taken near enough";
     case Reachability::TimedOut:
       return "path planning was stopped by the wall clock";
     case Reachability::NotChecked:

@@ -35,13 +35,14 @@ enum class Reachability : std::uint8_t {
   NoPath,        ///< the path planner gave up
   TimedOut,      ///< the wall clock abort struck
   NotChecked,
+  NoFrame,  ///< recorded data: no frame left that was taken near enough
 };
 /// The reason as a person reads it, e.g. "the body would touch occupied or unknown space".
 std::string_view toString(Reachability r);
 /// One word for tables: `reachable`, `out_of_reach`, `in_collision`, `not_connected`, `no_path`, `timed_out`,
-/// `not_checked`.
+/// `not_checked`, `no_frame`.
 std::string_view tokenOf(Reachability r);
-inline constexpr int kReachabilityCount = 7;
+inline constexpr int kReachabilityCount = 8;
 
 /// A motion of the sensor, or why there is none.
 struct MotionPlan {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -35,6 +36,13 @@ bool overlapsKnownSurface(const ViewUtility& view, const HierarchicalPlannerConf
   return seen > 0.0 && view.occupied >= config.min_overlap * seen;
 }
 
+bool takenBefore(const Pose& pose, const UtilityInput& input, const HierarchicalPlannerConfig& config) {
+  return config.exclude_executed && std::ranges::any_of(input.executed, [&](const Pose& executed) {
+           return (executed.translation() - pose.translation()).norm() <= config.executed_distance_m &&
+                  angleBetween(executed, pose) <= config.executed_angle_rad;
+         });
+}
+
 }  // namespace
 
 void HierarchicalPlannerConfig::validate() const {
@@ -48,6 +56,8 @@ void HierarchicalPlannerConfig::validate() const {
   requireInRange("utility.min_occupied", min_occupied, 0.0, 1e9);
   requireInRange("utility.min_overlap", min_overlap, 0.0, 1.0);
   requireInRange("utility.stop_gain", stop_gain, 0.0, 1e9);
+  requireInRange("utility.executed_distance_m", executed_distance_m, 0.0, 1000.0);
+  requireInRange("utility.executed_angle_rad", executed_angle_rad, 0.0, std::numbers::pi);
   requireInRange("utility.rotation_weight_m_per_rad", rotation_weight_m_per_rad, 0.0, 1e6);
   // D-A4: rays that stand for their leaves have no voxels of their own.
   if (count == GainCount::Voxels && !refine_unknown && coarse_levels > 0)
@@ -62,6 +72,8 @@ std::string_view tokenOf(ViewRejection rejection) {
       return "position";
     case ViewRejection::Registration:
       return "registration";
+    case ViewRejection::Executed:
+      return "executed";
     case ViewRejection::None:
       break;
   }
@@ -99,6 +111,9 @@ ViewUtility evaluateView(const UtilityInput& input, const HierarchicalPlannerCon
   view.frame = candidate.frame;
   view.T_world_camera = candidate.T_world_camera;
   const Pose& pose = candidate.T_world_camera;
+
+  view.rejection = ViewRejection::Executed;
+  if (takenBefore(pose, input, config)) return view;
 
   view.rejection = ViewRejection::Position;  // pos(v)
   if (!bodyFits(input.pyramid.finest(), pose.translation(), config.body_m)) return view;

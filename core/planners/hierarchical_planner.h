@@ -31,7 +31,12 @@ struct HierarchicalPlannerConfig {
   double min_occupied = 400.0;     ///< h_oc, rays (eq. 2)
   double min_overlap = 0.0;        ///< alternative to h_oc: occupied / (occupied + unknown), 0 = off (D-A15)
   double stop_gain = 100.0;        ///< h_stop, rays (D-A18)
-  double rotation_weight_m_per_rad = 1.0;  ///< w of rho (D-A17), 0 = position only
+  /// Views near one already taken are not offered again; the paper offers them, and a view whose unknown no
+  /// scan resolves (shadows of the emitter, say) is then taken over and over.
+  bool exclude_executed = false;
+  double executed_distance_m = 0.05;                ///< how near, metres
+  double executed_angle_rad = 0.17453292519943295;  ///< and how little turned, radians; 10 deg
+  double rotation_weight_m_per_rad = 1.0;           ///< w of rho (D-A17), 0 = position only
   bool operator==(const HierarchicalPlannerConfig&) const = default;
   /// \throws std::invalid_argument naming field, value and range.
   void validate() const;
@@ -42,8 +47,9 @@ enum class ViewRejection : std::uint8_t {
   None,
   Position,      ///< the robot's box is not free there, or the sensor stands in something (D-A12, D-A16)
   Registration,  ///< too little known surface in view (eq. 2)
+  Executed,      ///< near a view that was taken before (exclude_executed)
 };
-/// `` (empty), `position`, `registration`: as tables have it.
+/// `` (empty), `position`, `registration`, `executed`: as tables have it.
 std::string_view tokenOf(ViewRejection rejection);
 
 /// A candidate with every factor of eq. 1. Factors that the cascade never computed are 0.
@@ -88,7 +94,8 @@ struct UtilityInput {
   const RayTree& tree;
   const Box& object_box;
   const std::vector<ViewCandidate>& candidates;
-  const Pose& current;  ///< p.q of eq. 5
+  const Pose& current;                  ///< p.q of eq. 5
+  std::span<const Pose> executed = {};  ///< views taken so far
 };
 
 /// True if every voxel that the cube of edge `body_m` about `center_world` overlaps is free; outside the map

@@ -87,11 +87,12 @@ class Search {
       counts.voxels_visited += view.rays.visited;
       result_.finest_rays_cast += view.rays.finest_rays_cast;
       result_.rejected_position += view.rejection == ViewRejection::Position;
+      counts.poses_executed_before += view.rejection == ViewRejection::Executed;
       result_.rejected_registration += view.rejection == ViewRejection::Registration;
       counts.poses_above_threshold +=
           view.rejection == ViewRejection::None && view.unknown >= config_.stop_gain;
     }
-    counts.poses_scored = counts.poses_generated - result_.rejected_position;
+    counts.poses_scored = counts.poses_generated - result_.rejected_position - counts.poses_executed_before;
   }
 
   /// Step 5: the best view that the robot can take. A view of no utility shows nothing new.

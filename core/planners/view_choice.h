@@ -12,11 +12,13 @@ struct SearchCounts {
   std::uint64_t poses_generated = 0;
   std::uint64_t poses_scored = 0;
   std::uint64_t poses_above_threshold = 0;
-  std::uint64_t poses_unreachable = 0;      ///< above the threshold, tried before the chosen one and skipped
-  std::uint64_t poses_executed_before = 0;  ///< above the threshold, before the chosen one, skipped by D-B15
-  std::uint64_t rays = 0;                   ///< rays cast to score poses; shared ones once
-  std::uint64_t voxels_visited = 0;         ///< by a plain walk of those rays
-  std::uint64_t paths_planned = 0;          ///< calls of the path planner
+  std::uint64_t poses_unreachable = 0;  ///< above the threshold, tried before the chosen one and skipped
+  /// Skipped since they were taken before: contour planner: above the threshold and better than the chosen
+  /// one (D-B15); hierarchical planner: all.
+  std::uint64_t poses_executed_before = 0;
+  std::uint64_t rays = 0;            ///< rays cast to score poses; shared ones once
+  std::uint64_t voxels_visited = 0;  ///< by a plain walk of those rays
+  std::uint64_t paths_planned = 0;   ///< calls of the path planner
 };
 
 /// The next best view, whoever chose it.

@@ -15,6 +15,8 @@ class BallTruth : public GroundTruth {
   std::vector<Box> objectBoxes() const override {
     return {Box(Eigen::Vector3d::Constant(-kRadius), Eigen::Vector3d::Constant(kRadius))};
   }
+  std::vector<Box> knownBoxes() const override { return {}; }
+  bool insideKnown(const Eigen::Vector3d&) const override { return false; }
   const std::vector<Eigen::Vector3f>& observableSurface() const override { return surface_; }
   int objectAt(const Eigen::Vector3d& p, double within_m) const override {
     return objectDistance(p) <= within_m ? 0 : -1;
@@ -64,12 +66,13 @@ TEST(SurfaceCoverage, IsTheShareOfTruePointsWithAVertexWithinOneCentimetre) {
   std::vector<Eigen::Vector3f> truth;
   for (int i = 0; i < 100; ++i) truth.emplace_back(0.01f * static_cast<float>(i), 0.0f, 0.0f);
   SurfaceCloud surface;
-  EXPECT_EQ(surfaceCoverage(truth, surface), 0.0);
+  EXPECT_EQ(surfaceCoverage(truth, surface.points, kCoverageDistance_m), 0.0);
   surface.points = {{0.5f, 0.009f, 0.0f}, {0.0f, 0.011f, 0.0f}, {5.0f, 0.0f, 0.0f}};
-  EXPECT_DOUBLE_EQ(surfaceCoverage(truth, surface), 0.01);  // only the point at 0.5 m
+  EXPECT_DOUBLE_EQ(surfaceCoverage(truth, surface.points, kCoverageDistance_m),
+                   0.01);  // only the point at 0.5 m
   surface.points = truth;
-  EXPECT_DOUBLE_EQ(surfaceCoverage(truth, surface), 1.0);
-  EXPECT_EQ(surfaceCoverage({}, surface), 0.0);
+  EXPECT_DOUBLE_EQ(surfaceCoverage(truth, surface.points, kCoverageDistance_m), 1.0);
+  EXPECT_EQ(surfaceCoverage({}, surface.points, kCoverageDistance_m), 0.0);
 }
 
 TEST(CountUnknown, MatchesTheVolumeOfTheBall) {
