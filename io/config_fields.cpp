@@ -75,14 +75,23 @@ std::vector<double> checkedArray(const Field& field, const Value& value) {
   return *numbers;
 }
 
+bool isNames(const Field& field, std::string_view text) {
+  for (;;) {
+    const std::size_t comma = text.find(',');
+    if (std::ranges::find(field.choices, text.substr(0, comma)) == field.choices.end()) return false;
+    if (comma == std::string_view::npos) return true;
+    text.remove_prefix(comma + 1);
+  }
+}
+
 }  // namespace
 
 std::string Field::allowed() const {
   if (kind == Kind::Boolean) return "true | false";
-  if (kind == Kind::Choice) {
+  if (kind == Kind::Choice || kind == Kind::Names) {
     std::string text;
     for (const std::string& choice : choices) text += (text.empty() ? "" : " | ") + choice;
-    return text;
+    return kind == Kind::Names ? text + ", several with commas between them" : text;
   }
   const bool integer = isInteger(kind);
   const std::string range = number(low, integer) + " .. " + number(high, integer);
@@ -111,6 +120,11 @@ Value checked(const Field& field, Value value) {
       const auto* text = std::get_if<std::string>(&value);
       if (!text || std::find(field.choices.begin(), field.choices.end(), *text) == field.choices.end())
         refuse(field, value, "is not a choice");
+      return value;
+    }
+    case Kind::Names: {
+      const auto* text = std::get_if<std::string>(&value);
+      if (!text || !isNames(field, *text)) refuse(field, value, "is not a choice");
       return value;
     }
     case Kind::Integer: {

@@ -14,7 +14,8 @@ namespace vantage::config {
 /// A value as TOML knows it; arrays hold numbers only.
 using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>>;
 
-enum class Kind { Boolean, Integer, Number, Choice, Numbers, Integers };
+/// Names: one or more of the choices, with commas between them.
+enum class Kind { Boolean, Integer, Number, Choice, Names, Numbers, Integers };
 
 /// One configurable value: how it is called, what is allowed, and the way into Settings and back.
 struct Field {
@@ -23,7 +24,7 @@ struct Field {
   Kind kind = Kind::Number;
   double low = 0.0, high = 0.0;      ///< range of the number, or of each entry
   int min_count = 0, max_count = 0;  ///< entries of an array
-  std::vector<std::string> choices;  ///< of Kind::Choice
+  std::vector<std::string> choices;  ///< of Kind::Choice and Kind::Names
   std::function<Value(const Settings&)> get;
   std::function<void(Settings&, const Value&)> set;  ///< the value is of the kind and in range
 

@@ -95,6 +95,17 @@ Field choice(const char* key, const char* doc, std::vector<std::pair<std::string
   return field;
 }
 
+/// The planners of a run (core/exploration/planner_kind.h).
+Field plannerNames(const char* key, const char* doc) {
+  Field field = base(key, doc, Kind::Names);
+  for (const PlannerKind kind : kPlannerKinds) field.choices.emplace_back(toString(kind));
+  field.get = [](const Settings& s) -> Value { return plannersToText(s.exploration.planners); };
+  field.set = [](Settings& s, const Value& v) {
+    s.exploration.planners = plannersFromText(std::get<std::string>(v));
+  };
+  return field;
+}
+
 /// A vector of three numbers or integers.
 template <class Ref>
 Field vector3(const char* key, const char* doc, Kind kind, double low, double high, Ref ref) {
@@ -149,9 +160,8 @@ Field quaternion(const char* key, const char* doc, Ref ref) {
 
 std::vector<Field> explorationFields() {
   return {
-      choice<bool>("exploration.planner", "how views are chosen (section 2; D-B16 for the baseline)",
-                   {{kPlannerContour, true}, {kPlannerStandard, false}},
-                   AT(exploration.planner.segment_by_segment)),
+      plannerNames("exploration.planner",
+                   "how views are chosen: one planner, or one for each view in turn, the last goes on"),
       integer("exploration.steps", "next best views per run (section 10)", 0, 10000, AT(exploration.steps)),
       integer("exploration.seed", "of noise and path planning", 0, 9007199254740992.0, AT(exploration.seed)),
       flag("exploration.enforce_reachability", "false: obstacles and paths are only reported (recorded data)",
@@ -221,85 +231,184 @@ std::vector<Field> mapFields() {
               10000, AT(dataset_position_m)),
       quaternion("dataset.quaternion_xyzw", "placement of recorded data in the world, unit quaternion",
                  AT(dataset_orientation)),
+      number("dataset.serve_distance_m",
+             "recorded data: a view needs a frame this near, metres, 0 = the nearest serves", 0, 1000,
+             AT(exploration.serve_distance_m)),
+      angle("dataset.serve_angle_deg", "and turned by no more than this, degrees", 0, 180,
+            AT(exploration.serve_angle_rad)),
   };
 }
 
 std::vector<Field> plannerFields() {
   return {
       integer("contours.weight_threshold", "W_th, observations from which a voxel is known (section 4)", 1,
-              1000, AT(exploration.planner.contours.weight_threshold)),
+              1000, AT(exploration.contour.contours.weight_threshold)),
       number("contours.group_distance_m", "D_th, reach of a group of contour voxels, metres (section 4)",
-             1e-6, 10, AT(exploration.planner.contours.group_distance_m)),
+             1e-6, 10, AT(exploration.contour.contours.group_distance_m)),
       angle("contours.group_angle_deg", "A_th, normals of a group differ by less, degrees (D-B3)", 1e-6, 180,
-            AT(exploration.planner.contours.group_angle_rad)),
+            AT(exploration.contour.contours.group_angle_rad)),
       flag("contours.occupied_six_neighbours", "ablation: 6 neighbours instead of 18 for occupied (D-B1)",
-           AT(exploration.planner.contours.occupied_six_neighbours)),
+           AT(exploration.contour.contours.occupied_six_neighbours)),
       flag("contours.unknown_eighteen_neighbours", "ablation: 18 neighbours instead of 6 for unknown (D-B1)",
-           AT(exploration.planner.contours.unknown_eighteen_neighbours)),
+           AT(exploration.contour.contours.unknown_eighteen_neighbours)),
       list("views.distances_m", "sensor to contour point, metres (section 5)", 0.01, 100, 16,
-           AT(exploration.planner.views.distances_m)),
+           AT(exploration.contour.views.distances_m)),
       angle("views.tilt_deg", "four extra directions from the normal, degrees (D-B6)", 0, 90,
-            AT(exploration.planner.views.tilt_rad)),
+            AT(exploration.contour.views.tilt_rad)),
       integer("views.rolls", "equal steps of a full turn about the axis (section 5)", 1, 64,
-              AT(exploration.planner.views.rolls)),
+              AT(exploration.contour.views.rolls)),
       number("segmentation.voxel_m", "VCCS voxel, metres (D-B34)", 1e-4, 10,
-             AT(exploration.planner.segmentation.voxel_m)),
+             AT(exploration.contour.segmentation.voxel_m)),
       number("segmentation.seed_m", "VCCS seed spacing, metres, above the voxel (D-B34)", 1e-4, 10,
-             AT(exploration.planner.segmentation.seed_m)),
+             AT(exploration.contour.segmentation.seed_m)),
       number("segmentation.spatial_weight", "VCCS weight of distance (D-B34)", 0, 1000,
-             AT(exploration.planner.segmentation.spatial_weight)),
+             AT(exploration.contour.segmentation.spatial_weight)),
       number("segmentation.normal_weight", "VCCS weight of normals (D-B34)", 0, 1000,
-             AT(exploration.planner.segmentation.normal_weight)),
+             AT(exploration.contour.segmentation.normal_weight)),
       angle("segmentation.concavity_tolerance_deg", "LCCP, degrees (D-B34)", 0, 180,
-            AT(exploration.planner.segmentation.concavity_tolerance_rad)),
+            AT(exploration.contour.segmentation.concavity_tolerance_rad)),
       flag("segmentation.smoothness_check", "LCCP: steps between patches separate (D-B34)",
-           AT(exploration.planner.segmentation.smoothness_check)),
+           AT(exploration.contour.segmentation.smoothness_check)),
       number("segmentation.smoothness", "LCCP: step allowed, share of the seed spacing (D-B34)", 0, 100,
-             AT(exploration.planner.segmentation.smoothness)),
+             AT(exploration.contour.segmentation.smoothness)),
       integer("segmentation.k_convexity", "LCCP: common convex neighbours wanted (D-B34)", 0, 3,
-              AT(exploration.planner.segmentation.k_convexity)),
+              AT(exploration.contour.segmentation.k_convexity)),
       flag("segmentation.sanity_check", "LCCP: sanity criterion (D-B34)",
-           AT(exploration.planner.segmentation.sanity_check)),
+           AT(exploration.contour.segmentation.sanity_check)),
       integer("segmentation.min_segment_supervoxels",
               "segments up to this size join their largest neighbour, 0 = off (D-B34)", 0, 10000,
-              AT(exploration.planner.segmentation.min_segment_supervoxels)),
+              AT(exploration.contour.segmentation.min_segment_supervoxels)),
       number("saliency.isolation_distance_m", "B_th, metres (section 7)", 1e-6, 0.2,
-             AT(exploration.planner.saliency.isolation_distance_m)),
+             AT(exploration.contour.saliency.isolation_distance_m)),
       number("saliency.max_distance_m", "distances to other segments are kept up to here, metres", 1e-3, 10,
-             AT(exploration.planner.saliency.max_distance_m)),
+             AT(exploration.contour.saliency.max_distance_m)),
       integer("saliency.min_points", "smaller segments have saliency 0 (D-B17)", 1, 1000000,
-              AT(exploration.planner.saliency.min_points)),
+              AT(exploration.contour.saliency.min_points)),
       flag("saliency.use_isolation", "ablation if false: isolation is 1 (section 7)",
-           AT(exploration.planner.saliency.use_isolation)),
+           AT(exploration.contour.saliency.use_isolation)),
       flag("saliency.use_roundness", "ablation if false: roundness is 1 (section 7)",
-           AT(exploration.planner.saliency.use_roundness)),
+           AT(exploration.contour.saliency.use_roundness)),
   };
 }
 
 std::vector<Field> gainFields() {
   return {
       number("gain.sphere_margin_m", "added to the radius of a segment's sphere, metres (section 8)", 0, 100,
-             AT(exploration.planner.gain.sphere_margin_m)),
+             AT(exploration.contour.gain.sphere_margin_m)),
       number("gain.threshold", "least gain of a view, rays at full resolution (D-B12)", 0, 1e9,
-             AT(exploration.planner.gain.gain_threshold)),
+             AT(exploration.contour.gain.gain_threshold)),
       integer("gain.reduction", "rays are cast at 1/reduction of the resolution per axis (D-B11)", 1, 64,
-              AT(exploration.planner.gain.reduction)),
+              AT(exploration.contour.gain.reduction)),
       choice<OutsideUnknown>(
           "gain.outside", "unknown voxels outside the sphere end a ray or not (D-B9)",
           {{"opaque", OutsideUnknown::Opaque}, {"transparent", OutsideUnknown::Transparent}},
-          AT(exploration.planner.gain.outside)),
+          AT(exploration.contour.gain.outside)),
       flag("gain.exclude_executed", "poses near one already taken are not offered again (D-B15)",
-           AT(exploration.planner.gain.exclude_executed)),
+           AT(exploration.contour.gain.exclude_executed)),
       number("gain.executed_distance_m", "how near, metres (D-B15)", 0, 100,
-             AT(exploration.planner.gain.executed_distance_m)),
+             AT(exploration.contour.gain.executed_distance_m)),
       angle("gain.executed_angle_deg", "how near, degrees (D-B15)", 0, 180,
-            AT(exploration.planner.gain.executed_angle_rad)),
+            AT(exploration.contour.gain.executed_angle_rad)),
       flag("gain.exclude_disappointing", "contours that delivered nothing are not offered again (D-B33)",
-           AT(exploration.planner.gain.exclude_disappointing)),
+           AT(exploration.contour.gain.exclude_disappointing)),
       number("gain.disappointing_share", "realised / predicted gain below which a view disappoints (D-B33)",
-             0, 1, AT(exploration.planner.gain.disappointing_share)),
+             0, 1, AT(exploration.contour.gain.disappointing_share)),
       number("gain.disappointing_distance_m", "contour points this near are dropped, metres (D-B33)", 0, 100,
-             AT(exploration.planner.gain.disappointing_distance_m)),
+             AT(exploration.contour.gain.disappointing_distance_m)),
+  };
+}
+
+/// "A section" is a section of the hierarchical planner's specification.
+std::vector<Field> octreeFields() {
+  return {
+      number("octree.voxel_size_m", "l, edge of a finest voxel, metres (A section 8)", 1e-3, 1,
+             AT(exploration.octree.voxel_size_m)),
+      vector3(
+          "octree.object_min_m",
+          "lower corner of the object's box, metres; a box without volume = the workspace (A section 1)",
+          Kind::Numbers, -1000, 1000, [](auto& s) -> auto& { return s.exploration.octree.object_box.min(); }),
+      vector3(
+          "octree.object_max_m", "upper corner of the object's box, metres", Kind::Numbers, -1000, 1000,
+          [](auto& s) -> auto& { return s.exploration.octree.object_box.max(); }),
+      choice<VoxelState>("octree.outside", "what is around the object's box at the start (D-A10)",
+                         {{"free", VoxelState::Free}, {"unknown", VoxelState::Unknown}},
+                         AT(exploration.octree.outside)),
+      flag("octree.known_scene",
+           "simulation: table, panel and room are in the map from the start (A section 10.4)",
+           AT(exploration.octree.known_scene)),
+      number("octree.hit_probability", "of a voxel in which a measurement ends (A section 8)", 0.501, 0.999,
+             AT(exploration.octree.occupancy.hit_probability)),
+      number("octree.miss_probability", "of a voxel that a ray passes (A section 8)", 0.001, 0.499,
+             AT(exploration.octree.occupancy.miss_probability)),
+      number("octree.clamp_min", "probabilities stay above (A section 8)", 0.001, 0.499,
+             AT(exploration.octree.occupancy.clamp_min)),
+      number("octree.clamp_max", "probabilities stay below (A section 8)", 0.501, 0.999,
+             AT(exploration.octree.occupancy.clamp_max)),
+      number("octree.unknown_low", "below it a voxel is free (D-A7)", 0.001, 0.5,
+             AT(exploration.octree.occupancy.unknown_low)),
+      number("octree.unknown_high", "from here on it is occupied (D-A7)", 0.5, 0.999,
+             AT(exploration.octree.occupancy.unknown_high)),
+      number("octree.insert_range_m",
+             "measurements beyond only clear the way up to here, metres (A section 8)", 0.01, 1000,
+             AT(exploration.octree.occupancy.insert_range_m)),
+      choice<InnerRule>("octree.inner", "label of a coarse node: maximum or mean of its voxels (D-A5)",
+                        {{"max", InnerRule::Max}, {"mean", InnerRule::Mean}},
+                        AT(exploration.octree.occupancy.inner)),
+  };
+}
+
+std::vector<Field> hierarchicalFields() {
+  return {
+      angle("rays.horizontal_fov_deg", "a_h, full aperture of the planned sensor, degrees (A section 8)", 1,
+            179, AT(exploration.hierarchical.sensor.horizontal_fov_rad)),
+      angle("rays.vertical_fov_deg", "a_v, full aperture of the planned sensor, degrees (A section 8)", 1,
+            179, AT(exploration.hierarchical.sensor.vertical_fov_rad)),
+      number("rays.min_range_m", "hits nearer than this are lost, metres (D-A22)", 0, 1000,
+             AT(exploration.hierarchical.sensor.min_range_m)),
+      number("rays.max_range_m", "d, depth of view, metres, above the nearest (A section 8)", 0.01, 1000,
+             AT(exploration.hierarchical.sensor.max_range_m)),
+      choice<RayAnchor>("rays.anchor", "where the grid of rays lies in the aperture (D-A1)",
+                        {{"centered", RayAnchor::Centered}, {"literal", RayAnchor::Literal}},
+                        AT(exploration.hierarchical.sensor.anchor)),
+      integer("rays.coarse_levels", "m, levels above the finest at which tracing starts (A section 6)", 0, 8,
+              AT(exploration.hierarchical.coarse_levels)),
+      choice<ChildStart>("rays.child_start",
+                         "refined rays begin at their parent's hit or at the sensor (D-A11)",
+                         {{"resume", ChildStart::Resume}, {"restart", ChildStart::Restart}},
+                         AT(exploration.hierarchical.child_start)),
+      flag("rays.refine_unknown", "unknown nodes are refined too (D-A4)",
+           AT(exploration.hierarchical.refine_unknown)),
+      choice<GainCount>("rays.count", "what is counted (D-A4)",
+                        {{"rays", GainCount::Rays}, {"voxels", GainCount::Voxels}},
+                        AT(exploration.hierarchical.count)),
+      choice<CandidateGenerator>(
+          "candidates.generator", "where candidate views come from (A section 7)",
+          {{"icosphere", CandidateGenerator::Icosphere}, {"workspace", CandidateGenerator::Workspace}},
+          AT(exploration.hierarchical.generator)),
+      integer("candidates.subdivisions", "of the icosphere: 20 * 4^n views (D-A21)", 0, 6,
+              AT(exploration.hierarchical.icosphere_subdivisions)),
+      number("candidates.radius_m", "of the icosphere about the object's box, metres (A section 8)", 0.01,
+             100, AT(exploration.hierarchical.sphere_radius_m)),
+      integer("candidates.workspace_views", "drawn uniformly in the mapped volume (A section 8)", 0, 1000000,
+              AT(exploration.hierarchical.workspace_views)),
+      flag("candidates.recorded", "recorded data: the poses that are left are candidates too",
+           AT(exploration.recorded_candidates)),
+      number("utility.body_m", "RBB, edge of the robot's cube, metres (D-A16)", 0, 10,
+             AT(exploration.hierarchical.body_m)),
+      number("utility.min_occupied", "h_oc, least known surface in view, rays (eq. 2)", 0, 1e9,
+             AT(exploration.hierarchical.min_occupied)),
+      number("utility.min_overlap", "instead: least share of known surface, 0 = h_oc counts (D-A15)", 0, 1,
+             AT(exploration.hierarchical.min_overlap)),
+      number("utility.stop_gain", "h_stop, least unknown in view, rays (D-A18)", 0, 1e9,
+             AT(exploration.hierarchical.stop_gain)),
+      flag("utility.exclude_executed", "views near one already taken are not offered again",
+           AT(exploration.hierarchical.exclude_executed)),
+      number("utility.executed_distance_m", "how near, metres", 0, 1000,
+             AT(exploration.hierarchical.executed_distance_m)),
+      angle("utility.executed_angle_deg", "and how little turned, degrees", 0, 180,
+            AT(exploration.hierarchical.executed_angle_rad)),
+      number("utility.rotation_weight_m_per_rad", "w, metres of distance a radian of rotation (D-A17)", 0,
+             1000, AT(exploration.hierarchical.rotation_weight_m_per_rad)),
   };
 }
 
@@ -330,7 +439,8 @@ std::vector<Field> robotFields() {
 
 std::vector<Field> allFields() {
   std::vector<Field> all;
-  for (auto* part : {explorationFields, cameraFields, mapFields, plannerFields, gainFields, robotFields})
+  for (auto* part : {explorationFields, cameraFields, mapFields, plannerFields, gainFields, octreeFields,
+                     hierarchicalFields, robotFields})
     for (Field& field : part()) all.push_back(std::move(field));
   return all;
 }

@@ -92,8 +92,8 @@ void applyTable(Settings& settings, const toml::table& table, const std::string&
 
 /// The right side of key=value as a TOML node: `v = TEXT`, and words without quotes as strings.
 toml::table parseValue(const config::Field& field, const std::string& text, const std::string& origin) {
-  const bool bare_word =
-      field.kind == config::Kind::Choice && !text.starts_with('"') && !text.starts_with('\'');
+  const bool bare_word = (field.kind == config::Kind::Choice || field.kind == config::Kind::Names) &&
+                         !text.starts_with('"') && !text.starts_with('\'');
   if (bare_word) return toml::table{{"v", text}};
   try {
     toml::table table = toml::parse("v = " + text);
@@ -119,7 +119,7 @@ std::string oneLine(std::string text) {
 }  // namespace
 
 std::string Settings::planner() const {
-  return exploration.planner.segment_by_segment ? kPlannerContour : kPlannerStandard;
+  return plannersToText(exploration.planners);
 }
 
 std::string Settings::origin(std::string_view key) const {

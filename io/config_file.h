@@ -33,7 +33,7 @@ struct Settings {
   std::map<std::string, std::string, std::less<>> origins;
 
   Pose T_world_dataset() const { return makePose(dataset_position_m, dataset_orientation); }
-  /// "contour" or "standard".
+  /// Name of the planner; of several, with commas between them.
   std::string planner() const;
   /// Where the value of a key came from: "default" unless it was set.
   /// \throws InputError for an unknown key.

@@ -149,9 +149,9 @@ void scaleWithVoxels(Settings& settings) {
   const double growth = settings.exploration.volume.voxel_size_m / ExplorationConfig{}.volume.voxel_size_m;
   if (growth <= 1.0) return;
   settings.exploration.fusion.truncation_m *= growth;
-  settings.exploration.planner.contours.group_distance_m *= growth;
-  settings.exploration.planner.segmentation.voxel_m *= growth;
-  settings.exploration.planner.segmentation.seed_m *= growth;
+  settings.exploration.contour.contours.group_distance_m *= growth;
+  settings.exploration.contour.segmentation.voxel_m *= growth;
+  settings.exploration.contour.segmentation.seed_m *= growth;
 }
 
 void setScan(Settings& settings, const Dataset& dataset) {
@@ -185,8 +185,10 @@ Settings settingsForDataset(const Dataset& dataset) {
   exploration.fusion.observations_per_frame = dataset.observations_per_frame;
   exploration.enforce_reachability = false;
   if (!measured.depth_m.empty())
-    exploration.planner.views.distances_m = {
+    exploration.contour.views.distances_m = {
         std::max(0.05, std::round(quantile(measured.depth_m, 0.5) * 20.0) / 20.0)};
+  exploration.octree.outside = VoxelState::Unknown;  // D-A10
+  exploration.recorded_candidates = true;
   scaleWithVoxels(settings);
   setScan(settings, dataset);
   settings.free_flyer.reach_m = 0.0;

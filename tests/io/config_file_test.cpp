@@ -102,10 +102,10 @@ TEST(ConfigFile, WritingAndReadingGivesEqualValuesForEveryField) {
   applyToml(read, effectiveToml(written), "again");
   for (const config::Field& field : config::fields())
     EXPECT_EQ(field.get(read), field.get(written)) << field.key;
-  EXPECT_EQ(read.exploration.planner.contours, written.exploration.planner.contours);
-  EXPECT_EQ(read.exploration.planner.views, written.exploration.planner.views);
-  EXPECT_EQ(read.exploration.planner.segmentation, written.exploration.planner.segmentation);
-  EXPECT_EQ(read.exploration.planner.gain, written.exploration.planner.gain);
+  EXPECT_EQ(read.exploration.contour.contours, written.exploration.contour.contours);
+  EXPECT_EQ(read.exploration.contour.views, written.exploration.contour.views);
+  EXPECT_EQ(read.exploration.contour.segmentation, written.exploration.contour.segmentation);
+  EXPECT_EQ(read.exploration.contour.gain, written.exploration.contour.gain);
   EXPECT_EQ(read.exploration.scan, written.exploration.scan);
   EXPECT_EQ(read.free_flyer, written.free_flyer);
   EXPECT_EQ(effectiveToml(read).size() > 1000, true);
@@ -115,9 +115,9 @@ TEST(ConfigFile, DefaultsSurviveTheWayThroughAFile) {
   Settings read;
   applyToml(read, effectiveToml(Settings{}), "again");
   const Settings defaults;
-  EXPECT_EQ(read.exploration.planner.contours, defaults.exploration.planner.contours);
-  EXPECT_EQ(read.exploration.planner.segmentation, defaults.exploration.planner.segmentation);
-  EXPECT_EQ(read.exploration.planner.gain, defaults.exploration.planner.gain);
+  EXPECT_EQ(read.exploration.contour.contours, defaults.exploration.contour.contours);
+  EXPECT_EQ(read.exploration.contour.segmentation, defaults.exploration.contour.segmentation);
+  EXPECT_EQ(read.exploration.contour.gain, defaults.exploration.contour.gain);
   EXPECT_EQ(read.exploration.scan, defaults.exploration.scan);
   EXPECT_EQ(read.exploration.volume, defaults.exploration.volume);
   EXPECT_EQ(read.free_flyer, defaults.free_flyer);
@@ -127,7 +127,7 @@ TEST(ConfigFile, DefaultsSurviveTheWayThroughAFile) {
 TEST(ConfigFile, AnglesAreDegreesInFilesAndRadiansInside) {
   Settings settings;
   applyToml(settings, "[contours]\ngroup_angle_deg = 45\n", "a.toml");
-  EXPECT_DOUBLE_EQ(settings.exploration.planner.contours.group_angle_rad, std::numbers::pi / 4);
+  EXPECT_DOUBLE_EQ(settings.exploration.contour.contours.group_angle_rad, std::numbers::pi / 4);
   EXPECT_THAT(effectiveToml(Settings{}), HasSubstr("\ngroup_angle_deg = 30.0  # default"));
   EXPECT_THAT(effectiveToml(Settings{}), HasSubstr("\nexecuted_angle_deg = 10.0  # default"));
 }
@@ -138,8 +138,8 @@ TEST(ConfigFile, LaterSourcesWinAndAreRemembered) {
   applyToml(settings, "name = \"table\"\n[gain]\nthreshold = 600\n[[solid]]\nkind = \"box\"\n", "scene table",
             std::vector<std::string>{"name", "solid"});
   applyAssignment(settings, "gain.threshold=650");
-  EXPECT_EQ(settings.exploration.planner.gain.gain_threshold, 650.0);
-  EXPECT_EQ(settings.exploration.planner.gain.reduction, 2);
+  EXPECT_EQ(settings.exploration.contour.gain.gain_threshold, 650.0);
+  EXPECT_EQ(settings.exploration.contour.gain.reduction, 2);
   EXPECT_EQ(settings.origin("gain.threshold"), "--set");
   EXPECT_EQ(settings.origin("gain.reduction"), "user.toml");
   EXPECT_EQ(settings.origin("gain.outside"), "default");
@@ -195,7 +195,7 @@ TEST(ConfigFile, AssignmentsTakeWordsWithAndWithoutQuotes) {
   applyAssignment(settings, " exploration.planner = \"contour\" ");
   EXPECT_EQ(settings.planner(), "contour");
   applyAssignment(settings, "views.distances_m=[0.6, 1]", "--distances");
-  EXPECT_EQ(settings.exploration.planner.views.distances_m, (std::vector<double>{0.6, 1.0}));
+  EXPECT_EQ(settings.exploration.contour.views.distances_m, (std::vector<double>{0.6, 1.0}));
   EXPECT_EQ(settings.origin("views.distances_m"), "--distances");
 }
 

@@ -244,7 +244,7 @@ TEST_F(DatasetSettings, WorkspaceIsWhatWasMeasuredAndTheVolumeCoversIt) {
   EXPECT_EQ(settings.exploration.scan.frames, 1);
   EXPECT_EQ(settings.exploration.fusion.observations_per_frame, 10);
   EXPECT_FALSE(settings.exploration.enforce_reachability);
-  EXPECT_EQ(settings.exploration.planner.views.distances_m, std::vector<double>{2.0});
+  EXPECT_EQ(settings.exploration.contour.views.distances_m, std::vector<double>{2.0});
   EXPECT_EQ(settings.origin("camera.width"), "data set");
   EXPECT_EQ(settings.origin("gain.threshold"), "default");
   EXPECT_NO_THROW(settings.validate());
@@ -259,7 +259,7 @@ TEST_F(DatasetSettings, LargeBoundsGiveLargerVoxelsAndAllThatFollowsThem) {
   EXPECT_GT(settings.exploration.volume.count(), 30'000'000u);
   EXPECT_TRUE(settings.exploration.volume.bounds().contains(*dataset.bounds));
   EXPECT_GT(settings.exploration.fusion.truncation_m, 5.0 * settings.exploration.volume.voxel_size_m);
-  EXPECT_GT(settings.exploration.planner.segmentation.voxel_m, settings.exploration.volume.voxel_size_m);
+  EXPECT_GT(settings.exploration.contour.segmentation.voxel_m, settings.exploration.volume.voxel_size_m);
   EXPECT_NO_THROW(settings.validate());
 }
 
