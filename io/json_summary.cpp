@@ -28,7 +28,7 @@ Json quaternion(const Pose& pose) {
 }
 
 void putChosen(Json& step, const StepRecord& r) {
-  const ChosenView* view = r.hasView() ? &*r.search->chosen : nullptr;
+  const ChosenView* view = r.chosen();
   step["step"] = r.step;
   step["status"] = view ? "view" : "none";
   step["position_m"] = view ? position(view->T_world_camera) : Json(nullptr);
@@ -40,7 +40,7 @@ void putChosen(Json& step, const StepRecord& r) {
 
 void putCounts(Json& step, const StepRecord& r) {
   const auto count = [&](std::uint64_t SearchCounts::*field) {
-    return r.search ? Json(r.search->counts.*field) : Json(nullptr);
+    return r.counts() ? Json(r.counts()->*field) : Json(nullptr);
   };
   step["poses_generated"] = count(&SearchCounts::poses_generated);
   step["poses_scored"] = count(&SearchCounts::poses_scored);
@@ -73,12 +73,30 @@ Json timings(const Timings& t) {
 void putSegment(Json& step, const StepRecord& r) {
   step["segment"] = nullptr;
   step["saliency"] = nullptr;
-  if (!r.hasView() || !r.saliency || r.search->chosen->search >= r.search->segments.size()) return;
+  if (!r.search || !r.search->chosen || !r.saliency || r.search->chosen->search >= r.search->segments.size())
+    return;
   const SegmentSearch& from = r.search->segments[r.search->chosen->search];
   const auto& segments = r.saliency->segments;
   const bool labelled = from.segment >= 0 && from.segment < static_cast<std::int64_t>(segments.size());
   step["segment"] = labelled ? segments[from.segment].label : 0;
   step["saliency"] = from.saliency;
+}
+
+/// What the hierarchical planner adds; null for the others.
+void putUtilities(Json& step, const StepRecord& r) {
+  const UtilitySearch* u = r.utilities.get();
+  const ViewUtility* view = u ? chosenUtility(*u) : nullptr;
+  step["rejected_position"] = u ? Json(u->rejected_position) : Json(nullptr);
+  step["rejected_registration"] = u ? Json(u->rejected_registration) : Json(nullptr);
+  step["occupied"] = view ? Json(view->occupied) : Json(nullptr);
+  step["distance"] = view ? Json(view->distance) : Json(nullptr);
+  step["utility"] = view ? Json(view->utility) : Json(nullptr);
+  step["literal_stop"] = u ? Json(u->literal_stop) : Json(nullptr);
+}
+
+void putBox(Json& object, const StepRecord& r) {
+  object["box_unknown"] = r.box ? Json(r.box->unknown) : Json(nullptr);
+  object["box_occupied"] = r.box ? Json(r.box->occupied) : Json(nullptr);
 }
 
 void putServed(Json& step, const std::optional<ScanPose>& served) {
@@ -96,16 +114,21 @@ Json stepObject(const StepRecord& r, bool replay) {
   step["toward_object"] = orNull(r.toward_object);
   step["unknown_near_objects"] = orNull(r.metrics.unknown_near_objects);
   step["unknown_in_boxes"] = orNull(r.metrics.unknown_in_boxes);
+  step["planner"] = r.planner;
+  putUtilities(step, r);
+  putBox(step, r);
   if (replay) putServed(step, r.served);
   return step;
 }
 
-Json finalObject(const MapMetrics& m) {
+Json finalObject(const StepRecord& r) {
+  const MapMetrics& m = r.metrics;
   Json last;
   last["unknown_voxels"] = m.unknown_voxels;
   last["coverage"] = orNull(m.coverage);
   last["unknown_near_objects"] = orNull(m.unknown_near_objects);
   last["unknown_in_boxes"] = orNull(m.unknown_in_boxes);
+  putBox(last, r);
   return last;
 }
 
@@ -135,7 +158,7 @@ JsonSummary::~JsonSummary() = default;
 
 void JsonSummary::add(const StepRecord& record) {
   if (record.closing) {
-    state_->object["final"] = finalObject(record.metrics);
+    state_->object["final"] = finalObject(record);
   } else {
     state_->object["steps"].push_back(stepObject(record, state_->replay));
   }

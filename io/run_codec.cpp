@@ -30,30 +30,52 @@ Bytes compress(const Bytes& raw) {
   return Bytes(data.get(), data.get() + size);
 }
 
-StoredProduct storeChunk(std::span<const TsdfBrick> bricks, ProductWriter content) {
+/// How the products with the bricks of a map begin.
+template <class Brick>
+constexpr const char* kBricksName = "bricks.";
+template <>
+constexpr const char* kBricksName<OctreeBrick> = "octree.";
+
+std::vector<TsdfVoxel>& contentOf(TsdfBrick& brick) {
+  return brick.voxels;
+}
+std::vector<float>& contentOf(OctreeBrick& brick) {
+  return brick.log_odds;
+}
+using vantage::contentOf;
+
+template <class Brick>
+using Voxel = typename std::remove_cvref_t<decltype(contentOf(std::declval<const Brick&>()))>::value_type;
+
+template <class Brick>
+StoredProduct storeChunk(std::span<const Brick> bricks, ProductWriter content) {
+  constexpr std::size_t kBytes = sizeof(Voxel<Brick>);
   std::vector<std::uint32_t> index;
   std::vector<std::uint16_t> sizes;
   std::size_t total = 0;
-  for (const TsdfBrick& brick : bricks) {
-    if (brick.voxels.size() > kBrickVoxels)
-      throw std::invalid_argument("changed_bricks: a brick has " + std::to_string(brick.voxels.size()) +
+  for (const Brick& brick : bricks) {
+    const std::size_t voxels = contentOf(brick).size();
+    if (voxels > kBrickVoxels)
+      throw std::invalid_argument("changed bricks: a brick has " + std::to_string(voxels) +
                                   " voxels; allowed: 0 .. " + std::to_string(kBrickVoxels));
     index.push_back(brick.brick);
-    sizes.push_back(static_cast<std::uint16_t>(brick.voxels.size()));
-    total += brick.voxels.size();
+    sizes.push_back(static_cast<std::uint16_t>(voxels));
+    total += voxels;
   }
-  content.reserve(total * sizeof(TsdfVoxel) + bricks.size() * 6 + 128);
+  content.reserve(total * kBytes + bricks.size() * 6 + 128);
   content(index, sizes);
-  std::uint8_t* planes = content.append(total * sizeof(TsdfVoxel));
-  for (const TsdfBrick& brick : bricks) {
-    toPlanes(reinterpret_cast<const std::uint8_t*>(brick.voxels.data()), planes, brick.voxels.size(),
-             sizeof(TsdfVoxel), total);
-    planes += brick.voxels.size();
+  std::uint8_t* planes = content.append(total * kBytes);
+  for (const Brick& brick : bricks) {
+    const auto& voxels = contentOf(brick);
+    toPlanes(reinterpret_cast<const std::uint8_t*>(voxels.data()), planes, voxels.size(), kBytes, total);
+    planes += voxels.size();
   }
   return storeProduct(content);
 }
 
-std::vector<TsdfBrick> openChunk(const OpenedProduct& opened) {
+template <class Brick>
+std::vector<Brick> openChunk(const OpenedProduct& opened) {
+  constexpr std::size_t kBytes = sizeof(Voxel<Brick>);
   ByteReader reader = opened.reader();
   std::vector<std::uint32_t> index;
   std::vector<std::uint16_t> sizes;
@@ -61,27 +83,28 @@ std::vector<TsdfBrick> openChunk(const OpenedProduct& opened) {
   if (index.size() != sizes.size()) throw DamagedBytes("bricks without a size");
   std::size_t total = 0;
   for (const std::uint16_t size : sizes) total += size;
-  const std::uint8_t* planes = reader.raw(total * sizeof(TsdfVoxel)).data();
+  const std::uint8_t* planes = reader.raw(total * kBytes).data();
   reader.requireEnd();
-  std::vector<TsdfBrick> bricks(index.size());
+  std::vector<Brick> bricks(index.size());
   for (std::size_t i = 0; i < bricks.size(); ++i) {
     bricks[i].brick = index[i];
-    bricks[i].voxels.resize(sizes[i]);
-    fromPlanes(planes, reinterpret_cast<std::uint8_t*>(bricks[i].voxels.data()), sizes[i], sizeof(TsdfVoxel),
-               total);
+    auto& voxels = contentOf(bricks[i]);
+    voxels.resize(sizes[i]);
+    fromPlanes(planes, reinterpret_cast<std::uint8_t*>(voxels.data()), sizes[i], kBytes, total);
     planes += sizes[i];
   }
   return bricks;
 }
 
+template <class Brick>
 std::string chunkName(std::size_t chunk) {
   std::string number = std::to_string(chunk);
-  return "bricks." + std::string(number.size() < 4 ? 4 - number.size() : 0, '0') + number;
+  return kBricksName<Brick> + std::string(number.size() < 4 ? 4 - number.size() : 0, '0') + number;
 }
 
 /// Chunks are compressed side by side; each fills its own slot.
-std::vector<StoredProduct> storeBricks(const std::string& stage, int step,
-                                       const std::vector<TsdfBrick>& bricks) {
+template <class Brick>
+std::vector<StoredProduct> storeBricks(const std::string& stage, int step, const std::vector<Brick>& bricks) {
   const std::size_t chunks =
       std::max<std::size_t>(1, (bricks.size() + kBricksPerChunk - 1) / kBricksPerChunk);
   std::vector<StoredProduct> stored(chunks);
@@ -89,7 +112,7 @@ std::vector<StoredProduct> storeBricks(const std::string& stage, int step,
     const std::size_t first = c * kBricksPerChunk;
     const std::span all(bricks);
     const auto part = all.subspan(first, std::min(kBricksPerChunk, all.size() - first));
-    stored[c] = storeChunk(part, ProductWriter(stage, chunkName(c), step));
+    stored[c] = storeChunk<Brick>(part, ProductWriter(stage, chunkName<Brick>(c), step));
   });
   return stored;
 }
@@ -100,8 +123,9 @@ struct RecordContent {
   std::vector<std::string> products;  ///< names of the others, to notice one that is lost
 };
 
+template <class Brick>
 bool isBricks(const std::string& name) {
-  return name.starts_with("bricks.");
+  return name.starts_with(kBricksName<Brick>);
 }
 
 RecordContent openContent(int step, bool closing, const FetchProduct& fetch) {
@@ -135,6 +159,9 @@ void checkIndices(const StepRecord& r) {
     for (const std::uint32_t l : r.labels->of_point) require(l <= r.labels->count, "a label beyond the last");
   if (r.positions)
     for (const ViewPosition& p : *r.positions) require(p.group < points, "a view without its contour point");
+  if (r.utilities)
+    for (const std::uint32_t n : r.utilities->ranking)
+      require(n < r.utilities->views.size(), "a ranked view that was not evaluated");
   if (!r.search) return;
   const std::size_t segments = r.saliency ? r.saliency->segments.size() : 0;
   for (const SegmentSearch& s : r.search->segments) {
@@ -146,7 +173,7 @@ void checkIndices(const StepRecord& r) {
               "a score without its histogram");
   }
   if (!r.search->chosen) return;
-  const ChosenView& chosen = *r.search->chosen;
+  const ContourChosenView& chosen = *r.search->chosen;
   require(chosen.search < r.search->segments.size(), "a chosen view without its segment");
   require(chosen.rank < r.search->segments[chosen.search].scores.size(), "a chosen view without its score");
 }
@@ -202,9 +229,13 @@ std::vector<StoredProduct> storeRecord(const StepRecord& record, int step) {
     if (product) all.push_back(storeValue(stageOf(stage), name, step, *product));
   };
   add("sense", "depth", record.depth);
-  if (record.changed_bricks)
-    for (StoredProduct& chunk : storeBricks(stageOf("fuse"), step, *record.changed_bricks))
-      all.push_back(std::move(chunk));
+  const auto addBricks = [&](const auto& bricks) {
+    if (!bricks) return;
+    for (StoredProduct& chunk : storeBricks(stageOf("fuse"), step, *bricks)) all.push_back(std::move(chunk));
+  };
+  addBricks(record.changed_bricks);
+  addBricks(record.changed_octree_bricks);
+  add("fuse", "box", record.box);
   add("contours", "contours", record.contours);
   add("surface", "surface", record.surface);
   add("segmentation", "labels", record.labels);
@@ -212,6 +243,7 @@ std::vector<StoredProduct> storeRecord(const StepRecord& record, int step) {
   add("generation", "point_labels", record.point_labels);
   add("generation", "positions", record.positions);
   add("evaluation", "search", record.search);
+  add("evaluation", "utilities", record.utilities);
 
   std::vector<std::string> names;
   for (std::size_t i = 1; i < all.size(); ++i) names.push_back(all[i].name);
@@ -246,23 +278,36 @@ StepRecord openRecord(int step, bool closing, const FetchProduct& fetch, RunDeta
   take("generation", "point_labels", record.point_labels);
   take("generation", "positions", record.positions);
   take("evaluation", "search", record.search);
+  take("evaluation", "utilities", record.utilities);
+  take("fuse", "box", record.box);
   if (record.depth) checkDepth(*record.depth);
   checkIndices(record);
 
-  if (detail == RunDetail::All && std::ranges::any_of(content.products, isBricks)) {
-    auto bricks = std::make_shared<std::vector<TsdfBrick>>();
-    openBricks(step, closing, fetch, [&](std::vector<TsdfBrick> chunk) {
-      bricks->insert(bricks->end(), std::move_iterator(chunk.begin()), std::move_iterator(chunk.end()));
+  const auto takeBricks = [&]<class Brick>(std::shared_ptr<const std::vector<Brick>>& bricks) {
+    if (std::ranges::none_of(content.products, isBricks<Brick>)) return;
+    auto all = std::make_shared<std::vector<Brick>>();
+    openBricks<Brick>(step, closing, fetch, [&](std::vector<Brick> chunk) {
+      all->insert(all->end(), std::move_iterator(chunk.begin()), std::move_iterator(chunk.end()));
     });
-    record.changed_bricks = std::move(bricks);
+    bricks = std::move(all);
+  };
+  if (detail == RunDetail::All) {
+    takeBricks(record.changed_bricks);
+    takeBricks(record.changed_octree_bricks);
   }
   return record;
 }
 
+template <class Brick>
 void openBricks(int step, bool closing, const FetchProduct& fetch,
-                const std::function<void(std::vector<TsdfBrick>)>& take) {
+                const std::function<void(std::vector<Brick>)>& take) {
   for (const std::string& name : openContent(step, closing, fetch).products)
-    if (isBricks(name)) take(openChunk(openProduct(fetch(closing ? kClosingStage : "fuse", name), step)));
+    if (isBricks<Brick>(name))
+      take(openChunk<Brick>(openProduct(fetch(closing ? kClosingStage : "fuse", name), step)));
 }
+template void openBricks<TsdfBrick>(int, bool, const FetchProduct&,
+                                    const std::function<void(std::vector<TsdfBrick>)>&);
+template void openBricks<OctreeBrick>(int, bool, const FetchProduct&,
+                                      const std::function<void(std::vector<OctreeBrick>)>&);
 
 }  // namespace vantage

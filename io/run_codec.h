@@ -76,9 +76,18 @@ using FetchProduct = std::function<StoredProduct(const std::string& stage, const
 /// The record back from its products; realised_voxels is left empty. \throws DamagedBytes
 StepRecord openRecord(int step, bool closing, const FetchProduct& fetch, RunDetail detail);
 
-/// Bricks of a step, chunk by chunk. \throws DamagedBytes
+/// Bricks of one of the maps of a step, TsdfBrick or OctreeBrick, chunk by chunk. \throws DamagedBytes
+template <class Brick>
 void openBricks(int step, bool closing, const FetchProduct& fetch,
-                const std::function<void(std::vector<TsdfBrick>)>& take);
+                const std::function<void(std::vector<Brick>)>& take);
+
+/// Voxels of a brick of either map.
+inline const std::vector<TsdfVoxel>& contentOf(const TsdfBrick& brick) {
+  return brick.voxels;
+}
+inline const std::vector<float>& contentOf(const OctreeBrick& brick) {
+  return brick.log_odds;
+}
 
 /// Names under which a record's scalars, and the realised gain that comes later, are stored.
 inline constexpr const char* kRecordStage = "record";

@@ -17,6 +17,20 @@ inline constexpr std::int64_t kEnumCount<Reachability> = kReachabilityCount;
 template <>
 inline constexpr std::int64_t kEnumCount<OutsideUnknown> = 2;
 template <>
+inline constexpr std::int64_t kEnumCount<VoxelState> = 3;
+template <>
+inline constexpr std::int64_t kEnumCount<InnerRule> = 2;
+template <>
+inline constexpr std::int64_t kEnumCount<RayAnchor> = 2;
+template <>
+inline constexpr std::int64_t kEnumCount<ChildStart> = 2;
+template <>
+inline constexpr std::int64_t kEnumCount<CandidateGenerator> = 2;
+template <>
+inline constexpr std::int64_t kEnumCount<GainCount> = 2;
+template <>
+inline constexpr std::int64_t kEnumCount<ViewRejection> = 4;
+template <>
 inline constexpr bool kFlat<ScanPose> = true;
 template <>
 inline constexpr bool kFlat<ContourVoxel> = true;
@@ -28,6 +42,10 @@ template <>
 inline constexpr bool kFlat<ViewPosition> = true;
 template <>
 inline constexpr bool kFlat<PoseScore> = true;
+template <>
+inline constexpr bool kFlat<RayCounts> = true;
+template <>
+inline constexpr bool kFlat<ViewUtility> = true;
 
 // Geometry
 void fields(auto& a, Like<PinholeCamera> auto& v) {
@@ -68,6 +86,22 @@ void fields(auto& a, Like<GainConfig> auto& v) {
 void fields(auto& a, Like<ContourPlannerConfig> auto& v) {
   a(v.contours, v.views, v.segmentation, v.saliency, v.gain, v.segment_by_segment);
 }
+void fields(auto& a, Like<RaySensor> auto& v) {
+  a(v.horizontal_fov_rad, v.vertical_fov_rad, v.min_range_m, v.max_range_m, v.anchor);
+}
+void fields(auto& a, Like<HierarchicalPlannerConfig> auto& v) {
+  a(v.sensor, v.coarse_levels, v.child_start, v.refine_unknown, v.count, v.generator,
+    v.icosphere_subdivisions, v.sphere_radius_m, v.workspace_views, v.body_m, v.min_occupied, v.min_overlap,
+    v.stop_gain, v.exclude_executed, v.executed_distance_m, v.executed_angle_rad,
+    v.rotation_weight_m_per_rad);
+}
+void fields(auto& a, Like<OccupancyConfig> auto& v) {
+  a(v.hit_probability, v.miss_probability, v.clamp_min, v.clamp_max, v.unknown_low, v.unknown_high,
+    v.insert_range_m, v.inner);
+}
+void fields(auto& a, Like<OctreeMapConfig> auto& v) {
+  a(v.voxel_size_m, v.object_box, v.outside, v.known_scene, v.occupancy);
+}
 void fields(auto& a, Like<FreeFlyerConfig> auto& v) {
   a(v.body_radius_m, v.cell_m, v.reach_m, v.reach_center_m, v.min_height_m, v.check_step_m, v.rrt_iterations,
     v.rrt_range_m, v.safety_time_s, v.speed_m_per_s);
@@ -86,7 +120,11 @@ void fields(auto& a, Like<RunEnd> auto& v) {
 // The run; its true scene is a product of its own.
 void fields(auto& a, Like<RunHeader> auto& v) {
   a(v.input, v.planner, v.robot, v.command_line, v.version, v.scene_toml, v.config_toml, v.seed, v.threads,
-    v.compute, v.camera, v.volume, v.workspace, v.planner_config, v.free_flyer, v.replay);
+    v.compute, v.camera, v.volume, v.workspace, v.contour_config, v.free_flyer, v.replay);
+}
+/// What the hierarchical planner adds to the header, a product of its own.
+void fields(auto& a, Like<OctreeHeader> auto& v) {
+  a(v.planner, v.map, v.object_box);
 }
 
 // One step
@@ -98,6 +136,9 @@ void fields(auto& a, Like<DepthFrame> auto& v) {
 }
 void fields(auto& a, Like<MapMetrics> auto& v) {
   a(v.unknown_voxels, v.unknown_near_objects, v.unknown_in_boxes, v.coverage);
+}
+void fields(auto& a, Like<BoxMetrics> auto& v) {
+  a(v.unknown, v.occupied);
 }
 void fields(auto& a, Like<Timings> auto& v) {
   a(v.sense, v.filter, v.fuse, v.contours, v.surface, v.segmentation, v.saliency, v.generation, v.evaluation,
@@ -175,10 +216,25 @@ void fields(auto& a, Like<MotionPlan> auto& v) {
   a(v.verdict, v.straight, v.waypoints, v.length_m, v.iterations);
 }
 void fields(auto& a, Like<ChosenView> auto& v) {
+  a(v.id, v.T_world_camera, v.gain, v.gain_voxels, v.path);
+}
+void fields(auto& a, Like<ContourChosenView> auto& v) {
   a(v.id, v.contour_point, v.search, v.rank, v.T_world_camera, v.gain, v.gain_voxels, v.path);
 }
 void fields(auto& a, Like<ViewSearch> auto& v) {
   a(v.segments, v.chosen, v.counts, v.evaluation_s, v.motion_planning_s);
+}
+void fields(auto& a, Like<RayCounts> auto& v) {
+  a(v.unknown, v.occupied, v.unknown_scene, v.rays, v.rays_cast, v.finest_rays_cast, v.visited,
+    v.unknown_voxels, v.occupied_voxels, v.sensor_blocked);
+}
+void fields(auto& a, Like<ViewUtility> auto& v) {
+  a(v.id, v.T_world_camera, v.frame, v.rejection, v.reachability, v.rays, v.unknown, v.occupied, v.surface,
+    v.distance, v.utility);
+}
+void fields(auto& a, Like<UtilitySearch> auto& v) {
+  a(v.views, v.ranking, v.chosen, v.counts, v.finest_rays_cast, v.rejected_position, v.rejected_registration,
+    v.box_unknown, v.box_occupied, v.best_unknown, v.literal_stop, v.evaluation_s, v.motion_planning_s);
 }
 
 }  // namespace vantage

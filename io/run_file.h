@@ -13,11 +13,18 @@
 
 namespace vantage {
 
+/// What the hierarchical planner of a run worked with.
+struct OctreeHeader {
+  HierarchicalPlannerConfig planner;
+  OctreeMapConfig map;
+  Box object_box;  ///< the object's box, with volume
+};
+
 /// What a run is about; written once at its start.
 struct RunHeader {
-  std::string input;  ///< scene name or path, data set path
-  std::string planner;
-  std::string robot;  ///< "free" or an arm's name
+  std::string input;    ///< scene name or path, data set path
+  std::string planner;  ///< names with commas between them, see plannersFromText()
+  std::string robot;    ///< "free" or an arm's name
   std::string command_line;
   std::string version;      ///< of the program that wrote it
   std::string scene_toml;   ///< text of the scene file, empty for a data set
@@ -28,17 +35,18 @@ struct RunHeader {
   PinholeCamera camera;
   GridGeometry volume;
   Box workspace;
-  ContourPlannerConfig planner_config;
+  ContourPlannerConfig contour_config;
   FreeFlyerConfig free_flyer;
-  bool replay = false;  ///< the camera served recorded frames
-  TriangleMesh truth;   ///< the true scene, empty if not known
+  bool replay = false;                 ///< the camera served recorded frames
+  TriangleMesh truth;                  ///< the true scene, empty if not known
+  std::optional<OctreeHeader> octree;  ///< empty if the run has no octree
 };
 
 /// How much of a record is read.
 enum class RunDetail {
   All,
   NoVolume
-};  ///< NoVolume leaves changed_bricks empty; advanceVolume() gives the map
+};  ///< NoVolume leaves the changed bricks empty; advanceVolume() and advanceOctree() give the maps
 
 /// One stored product, for listings.
 struct ProductInfo {
@@ -96,11 +104,17 @@ class RunReader {
   /// `step` to `volume`, which holds the state of `from_step` (0 = empty volume). closingStep() names the map
   /// after the last scan. Returns the bricks that changed.
   BrickSet advanceVolume(TsdfVolume& volume, int from_step, int step) const;
+  /// The same for the octree of the hierarchical planner; make it with emptyOctree().
+  BrickSet advanceOctree(OccupancyOctree& octree, int from_step, int step) const;
   int closingStep() const;  ///< last step + 1
 
  private:
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// Octree of a run before its first scan: nothing stored. \throws std::invalid_argument if the run has none,
+/// std::runtime_error if it does not fit in memory.
+OccupancyOctree emptyOctree(const RunHeader& header);
 
 }  // namespace vantage

@@ -42,10 +42,23 @@ void requireFile(const fs::path& path) {
   if (!std::ifstream(path)) throw InputError(path.string(), "cannot be read; check its permissions");
 }
 
+void checkOctree(const OctreeHeader& octree, const GridGeometry& volume) {
+  try {
+    octree.map.validate();
+    octree.planner.validate();
+  } catch (const std::invalid_argument& error) {
+    throw DamagedBytes(error.what());
+  }
+  const Eigen::Vector3d voxels = volume.bounds().sizes() / octree.map.voxel_size_m;
+  if (!(voxels.array() <= kMaxGridSize).all() || !(voxels.prod() <= static_cast<double>(kMaxGridVoxels)))
+    throw DamagedBytes("its octree has an impossible size");
+}
+
 void checkHeader(const RunHeader& h) {
   const Eigen::Vector3i& size = h.volume.size;
   const bool sizes = (size.array() >= 0).all() && (size.array() <= kMaxGridSize).all();
   if (!sizes || h.volume.count() > kMaxGridVoxels) throw DamagedBytes("its volume has an impossible size");
+  if (h.octree) checkOctree(*h.octree, h.volume);
   for (const auto& t : h.truth.triangles)
     for (const std::uint32_t corner : t)
       if (corner >= h.truth.vertices.size()) throw DamagedBytes("its true scene lacks corners");
@@ -169,6 +182,37 @@ struct RunReader::State {
     return with("list of steps", [](Database& d) { return readContents(d); });
   }
 
+  /// Applies the bricks of the steps after `from_step` up to `step` to a map.
+  template <class Brick, class Map>
+  BrickSet advance(Map& map, int from_step, int step) const {
+    const Contents all = contents();
+    const int last = all.closing ? all.closingStep() : all.closingStep() - 1;
+    if (from_step < 0 || step < from_step || step > last)
+      throw std::invalid_argument("advancing a map: steps " + std::to_string(from_step) + " to " +
+                                  std::to_string(step) + " are out of range; allowed: 0 .. " +
+                                  std::to_string(last) + ", ascending");
+    const BrickLayout& layout = map.bricks();
+    BrickSet changed(layout.total());
+    const auto apply = [&](std::vector<Brick> bricks) {
+      for (const Brick& brick : bricks) {
+        if (brick.brick >= layout.total()) throw DamagedBytes("a brick outside the map");
+        const BrickRange range = layout.range(brick.brick);
+        const Eigen::Vector3i size = range.end - range.begin;
+        if (static_cast<std::size_t>(size.prod()) != contentOf(brick).size())
+          throw DamagedBytes("a brick of the wrong size");
+        map.setBrick(brick.brick, contentOf(brick));
+        changed.insert(brick.brick);
+      }
+    };
+    for (int k = from_step + 1; k <= step; ++k) {
+      const bool closing = all.closing && k == all.closingStep();
+      if (!closing && !std::ranges::binary_search(all.steps, k)) continue;
+      with("step " + std::to_string(k),
+           [&](Database& database) { openBricks<Brick>(k, closing, fetchFrom(database, k), apply); });
+    }
+    return changed;
+  }
+
   StepRecord record(int step, bool closing, RunDetail detail) const {
     return with("step " + std::to_string(step), [&](Database& database) {
       StepRecord r = openRecord(step, closing, fetchFrom(database, step), detail);
@@ -187,6 +231,8 @@ RunReader::RunReader(const std::filesystem::path& path) : state_(std::make_uniqu
     if (!header || !truth) throw DamagedBytes("it is missing");
     RunHeader h = openValue<RunHeader>(*header, 0);
     h.truth = openValue<TriangleMesh>(*truth, 0);
+    if (const auto octree = findRunProduct(database, "octree"))
+      h.octree = openValue<OctreeHeader>(*octree, 0);
     checkHeader(h);
     return h;
   });
@@ -245,32 +291,22 @@ BrickSet RunReader::advanceVolume(TsdfVolume& volume, int from_step, int step) c
   if (!(volume.geometry() == state_->header.volume))
     throw std::invalid_argument(
         "advanceVolume: the volume differs from the run's; make it with header().volume");
-  const Contents contents = state_->contents();
-  const int last = contents.closing ? contents.closingStep() : contents.closingStep() - 1;
-  if (from_step < 0 || step < from_step || step > last)
-    throw std::invalid_argument("advanceVolume: steps " + std::to_string(from_step) + " to " +
-                                std::to_string(step) + " are out of range; allowed: 0 .. " +
-                                std::to_string(last) + ", ascending");
-  const BrickLayout& layout = volume.bricks();
-  BrickSet changed(layout.total());
-  const auto apply = [&](std::vector<TsdfBrick> bricks) {
-    for (const TsdfBrick& brick : bricks) {
-      if (brick.brick >= layout.total()) throw DamagedBytes("a brick outside the volume");
-      const BrickRange range = layout.range(brick.brick);
-      const Eigen::Vector3i size = range.end - range.begin;
-      if (static_cast<std::size_t>(size.prod()) != brick.voxels.size())
-        throw DamagedBytes("a brick of the wrong size");
-      volume.setBrick(brick.brick, brick.voxels);
-      changed.insert(brick.brick);
-    }
-  };
-  for (int k = from_step + 1; k <= step; ++k) {
-    const bool closing = contents.closing && k == contents.closingStep();
-    if (!closing && !std::ranges::binary_search(contents.steps, k)) continue;
-    state_->with("step " + std::to_string(k),
-                 [&](Database& database) { openBricks(k, closing, fetchFrom(database, k), apply); });
-  }
-  return changed;
+  return state_->advance<TsdfBrick>(volume, from_step, step);
+}
+
+BrickSet RunReader::advanceOctree(OccupancyOctree& octree, int from_step, int step) const {
+  if (!state_->header.octree || !(octree.geometry() == emptyOctree(state_->header).geometry()))
+    throw std::invalid_argument(
+        "advanceOctree: the octree differs from the run's; make it with emptyOctree()");
+  return state_->advance<OctreeBrick>(octree, from_step, step);
+}
+
+OccupancyOctree emptyOctree(const RunHeader& header) {
+  if (!header.octree) throw std::invalid_argument("emptyOctree: the run has no octree");
+  const OctreeMapConfig& map = header.octree->map;
+  OccupancyOctree octree(OccupancyOctree::gridAround(header.volume.bounds(), map.voxel_size_m),
+                         header.octree->object_box, VoxelState::Unknown, map.occupancy);
+  return octree;
 }
 
 }  // namespace vantage

@@ -20,10 +20,17 @@ CREATE TABLE step (
   changed_bricks INTEGER, contour_voxels INTEGER, contour_points INTEGER, surface_points INTEGER, segments INTEGER,
   unknown_voxels INTEGER, unknown_near_objects INTEGER, unknown_in_boxes INTEGER, coverage REAL,
   sense_s REAL, filter_s REAL, fuse_s REAL, contours_s REAL, surface_s REAL, segmentation_s REAL, saliency_s REAL,
-  generation_s REAL, evaluation_s REAL, collision_map_s REAL, motion_planning_s REAL, motion_s REAL);
+  generation_s REAL, evaluation_s REAL, collision_map_s REAL, motion_planning_s REAL, motion_s REAL,
+  box_unknown INTEGER, box_occupied INTEGER, rejected_position INTEGER, rejected_registration INTEGER,
+  finest_rays INTEGER, occupied REAL, distance REAL, utility REAL, literal_stop INTEGER);
+CREATE TABLE view (
+  step INTEGER, view INTEGER, x_m REAL, y_m REAL, z_m REAL, qx REAL, qy REAL, qz REAL, qw REAL, frame INTEGER,
+  reject TEXT, reachability TEXT, unknown REAL, occupied REAL, surface REAL, distance REAL, utility REAL,
+  rays INTEGER, visited INTEGER, PRIMARY KEY (step, view));
 CREATE TABLE closing (
   step INTEGER PRIMARY KEY,
-  unknown_voxels INTEGER, unknown_near_objects INTEGER, unknown_in_boxes INTEGER, coverage REAL);
+  unknown_voxels INTEGER, unknown_near_objects INTEGER, unknown_in_boxes INTEGER, coverage REAL,
+  box_unknown INTEGER, box_occupied INTEGER);
 CREATE TABLE scan (
   step INTEGER, number INTEGER, frame INTEGER,
   x_m REAL, y_m REAL, z_m REAL, qx REAL, qy REAL, qz REAL, qw REAL, PRIMARY KEY (step, number));
@@ -50,11 +57,12 @@ void bindNulls(Statement& s, int count) {
 
 void bindChosen(Statement& s, const StepRecord& r) {
   if (!r.hasView()) return bindNulls(s, 14);
-  const ChosenView& chosen = *r.search->chosen;
+  const ChosenView& chosen = *r.chosen();
   bindPosition(s, chosen.T_world_camera);
   s.bind(chosen.gain).bind(chosen.gain_voxels).bind(r.realised_voxels);
-  const SegmentSearch* from =
-      chosen.search < r.search->segments.size() ? &r.search->segments[chosen.search] : nullptr;
+  const SegmentSearch* from = r.search && r.search->chosen->search < r.search->segments.size()
+                                  ? &r.search->segments[r.search->chosen->search]
+                                  : nullptr;
   if (from && from->segment >= 0 && r.saliency &&
       from->segment < static_cast<int>(r.saliency->segments.size())) {
     s.bind(r.saliency->segments[from->segment].label);
@@ -72,8 +80,8 @@ void bindServed(Statement& s, const std::optional<ScanPose>& served) {
 }
 
 void bindCounts(Statement& s, const StepRecord& r) {
-  if (r.search) {
-    const SearchCounts& c = r.search->counts;
+  if (r.counts()) {
+    const SearchCounts& c = *r.counts();
     s.bind(c.poses_generated).bind(c.poses_scored).bind(c.poses_above_threshold).bind(c.poses_unreachable);
     s.bind(c.poses_executed_before).bind(c.rays).bind(c.voxels_visited).bind(c.paths_planned);
   } else {
@@ -99,6 +107,24 @@ void bindTimings(Statement& s, const Timings& t) {
   s.bind(t.motion);
 }
 
+void bindBox(Statement& s, const StepRecord& r) {
+  if (!r.box) return bindNulls(s, 2);
+  s.bind(r.box->unknown).bind(r.box->occupied);
+}
+
+/// What the hierarchical planner adds.
+void bindUtilities(Statement& s, const StepRecord& r) {
+  if (!r.utilities) return bindNulls(s, 7);
+  const UtilitySearch& u = *r.utilities;
+  s.bind(u.rejected_position).bind(u.rejected_registration).bind(u.finest_rays_cast);
+  if (const ViewUtility* view = chosenUtility(u)) {
+    s.bind(view->occupied).bind(view->distance).bind(view->utility);
+  } else {
+    bindNulls(s, 3);
+  }
+  s.bind(int{u.literal_stop});
+}
+
 /// "?,?,...": one mark for each of `count` columns.
 std::string marks(int count) {
   std::string text = "?";
@@ -122,6 +148,17 @@ void insertSegments(Database& database, const Saliency& saliency, int step) {
     for (const Eigen::Vector3d& v : {g.extent_m, g.center_m})
       for (int i = 0; i < 3; ++i) s.bind(v[i]);
     s.bind(g.radius_m).finish();
+  }
+}
+
+void insertViews(Database& database, const UtilitySearch& search, int step) {
+  Statement s(database, "INSERT OR REPLACE INTO view VALUES (" + marks(19) + ")");
+  for (const ViewUtility& v : search.views) {
+    s.bind(step).bind(v.id);
+    bindPosition(s, v.T_world_camera);
+    s.bind(v.frame).bind(std::string(tokenOf(v.rejection))).bind(std::string(tokenOf(v.reachability)));
+    s.bind(v.unknown).bind(v.occupied).bind(v.surface).bind(v.distance).bind(v.utility);
+    s.bind(v.rays.rays_cast).bind(v.rays.visited).finish();
   }
 }
 
@@ -188,16 +225,19 @@ void insertHeader(Database& database, const RunHeader& h) {
 }
 
 void insertStep(Database& database, const StepRecord& r, int step) {
-  Statement s(database, "INSERT INTO step VALUES (" + marks(54) + ")");
+  Statement s(database, "INSERT INTO step VALUES (" + marks(63) + ")");
   s.bind(step).bind(r.hasView() ? "view" : "none").bind(r.planner);
   bindChosen(s, r);
   bindServed(s, r.served);
   bindCounts(s, r);
   bindMetrics(s, r.metrics);
   bindTimings(s, r.timings);
+  bindBox(s, r);
+  bindUtilities(s, r);
   s.finish();
   insertScan(database, r.scan, step);
   if (r.saliency) insertSegments(database, *r.saliency, step);
+  if (r.utilities) insertViews(database, *r.utilities, step);
 }
 
 void updateRealised(Database& database, const Realised& realised, int step) {
@@ -211,9 +251,10 @@ void updateRealised(Database& database, const Realised& realised, int step) {
 }
 
 void insertClosing(Database& database, const StepRecord& r, int step) {
-  Statement s(database, "INSERT INTO closing VALUES (?,?,?,?,?)");
+  Statement s(database, "INSERT INTO closing VALUES (?,?,?,?,?,?,?)");
   s.bind(step);
   bindMetrics(s, r.metrics);
+  bindBox(s, r);
   s.finish();
   insertScan(database, r.scan, step);
 }

@@ -65,6 +65,7 @@ void createFile(const fs::path& path, const RunHeader& header) {
     insertHeader(database, header);
     putRunProduct(database, storeValue("run", "header", 0, header));
     putRunProduct(database, storeValue("run", "truth", 0, header.truth));
+    if (header.octree) putRunProduct(database, storeValue("run", "octree", 0, *header.octree));
     transaction.commit();
   }
   removeSideFiles(path);

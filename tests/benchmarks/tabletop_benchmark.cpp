@@ -48,7 +48,7 @@ void planOneView(benchmark::State& state) {
   const int threads = static_cast<int>(state.range(1));
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
-  ContourPlannerConfig config = scene.settings.exploration.planner;
+  ContourPlannerConfig config = scene.settings.exploration.contour;
   config.segment_by_segment = contour;
   const PlanViewInput input{.volume = scene.volume,
                             .states = scene.states,
