@@ -36,10 +36,15 @@ void addViews(CLI::App& app, const GlobalOptions& global, Action& action);
 void addSegment(CLI::App& app, const GlobalOptions& global, Action& action);
 void addGain(CLI::App& app, const GlobalOptions& global, Action& action);
 void addPlan(CLI::App& app, const GlobalOptions& global, Action& action);
+void addCompare(CLI::App& app, const GlobalOptions& global, Action& action);
 void addScenes(CLI::App& app, const GlobalOptions& global, Action& action);
 void addConfig(CLI::App& app, const GlobalOptions& global, Action& action);
 void addInfo(CLI::App& app, const GlobalOptions& global, Action& action);
+void addReproduce(CLI::App& app, const GlobalOptions& global, Action& action);
 void addDoctor(CLI::App& app, const GlobalOptions& global, Action& action);
+
+/// Accepts the name of a planner, or several with commas between them (plannersFromText()).
+CLI::Validator isPlanner();
 
 /// `vantage --version`; with `verbose` also the libraries and the GL driver.
 std::string versionText(bool verbose);

@@ -38,7 +38,10 @@ RunHeader makeHeader(const GlobalOptions& global, const ExploreOptions& options,
   header.camera = input.camera->model();
   header.volume = settings.exploration.volume;
   header.workspace = settings.exploration.workspace;
-  header.planner_config = settings.exploration.planner;
+  header.contour_config = settings.exploration.contour;
+  if (settings.exploration.needsOctree())
+    header.octree = OctreeHeader{settings.exploration.hierarchical, settings.exploration.octree,
+                                 settings.exploration.objectBox()};
   header.free_flyer = settings.free_flyer;
   header.replay = input.replay;
   header.truth = input.truth_mesh;
@@ -46,13 +49,24 @@ RunHeader makeHeader(const GlobalOptions& global, const ExploreOptions& options,
 }
 
 void announce(const GlobalOptions& global, const ExploreOptions& options, const Settings& settings) {
-  const GridGeometry& volume = settings.exploration.volume;
-  const GainConfig& gain = settings.exploration.planner.gain;
+  const ExplorationConfig& config = settings.exploration;
+  const GridGeometry volume =
+      config.needsVolume() ? config.volume
+                           : OccupancyOctree::gridAround(config.volume.bounds(), config.octree.voxel_size_m);
   say(global, fmt::format("{}: {} planner, {} NBVs, {} x {} x {} voxels of {:.3f} mm, seed {}", options.input,
                           settings.planner(), settings.exploration.steps, volume.size.x(), volume.size.y(),
                           volume.size.z(), volume.voxel_size_m * 1e3, settings.exploration.seed));
-  say(global, fmt::format("gains: first-hit unknown rays at 1/{} of the resolution x {}, threshold {:g} rays",
-                          gain.reduction, gain.reduction * gain.reduction, gain.gain_threshold));
+  const GainConfig& gain = config.contour.gain;
+  if (config.needsVolume())
+    say(global,
+        fmt::format("gains: first-hit unknown rays at 1/{} of the resolution x {}, threshold {:g} rays",
+                    gain.reduction, gain.reduction * gain.reduction, gain.gain_threshold));
+  const HierarchicalPlannerConfig& rays = config.hierarchical;
+  if (config.needsOctree())
+    say(global,
+        fmt::format("utility: {} coarse levels, {:g} rays of known surface wanted, stops below {:g} rays of "
+                    "unknown",
+                    rays.coarse_levels, rays.min_occupied, rays.stop_gain));
 }
 
 /// Pictures of every step, from the run file alone.
@@ -131,8 +145,10 @@ void addExplore(CLI::App& app, const GlobalOptions& global, Action& action) {
       ->type_name("SCENE|DATASET");
   command->add_option("-o,--output", options->run, "Run file to write (default: NAME.vantage)")
       ->type_name("RUN");
-  command->add_option("--planner", options->planner, "How views are chosen")
-      ->check(CLI::IsMember({kPlannerContour, kPlannerStandard}));
+  command
+      ->add_option("--planner", options->planner,
+                   "How views are chosen; several with commas: one for each view, the last goes on")
+      ->check(isPlanner());
   command->add_option("--steps", options->steps, "Number of next best views")
       ->check(CLI::Range(0, 100000))
       ->type_name("N");

@@ -105,8 +105,10 @@ void addCommands(CLI::App& app, const GlobalOptions& global, Action& action) {
   addGain(app, global, action);
   addPlan(app, global, action);
   addScenes(app, global, action);
+  addCompare(app, global, action);
   addConfig(app, global, action);
   addInfo(app, global, action);
+  addReproduce(app, global, action);
   addDoctor(app, global, action);
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     command->allow_extras();

@@ -47,7 +47,7 @@ std::vector<PlanRow> rankedViews(const StepRecord& record, const ContourViewConf
       row.saliency = search.saliency;
       row.gain = score.gain;
       row.reachability = tokenOf(score.reachability);
-      row.chosen = record.hasView() && record.search->chosen->id == score.id;
+      row.chosen = record.hasView() && record.chosen()->id == score.id;
       rows.push_back(row);
     }
   return rows;
@@ -71,7 +71,7 @@ int plan(const GlobalOptions& global, const PlanOptions& options) {
                             .states = states,
                             .camera = settings.camera,
                             .workspace = settings.exploration.workspace,
-                            .config = settings.exploration.planner,
+                            .config = settings.exploration.contour,
                             .executed = map.exclusions.executed,
                             .disappointing = map.exclusions.disappointing};
   MotionPlan reported;
@@ -88,7 +88,7 @@ int plan(const GlobalOptions& global, const PlanOptions& options) {
   console.clear();
   if (options.output != "-" && global.json != "-") say(global, stepText(record));
   if (!options.output.empty())
-    writePlan(options.output, rankedViews(record, settings.exploration.planner.views));
+    writePlan(options.output, rankedViews(record, settings.exploration.contour.views));
   writeJson(global.json, nlohmann::ordered_json::parse(stepJsonText(record)));
   return 0;
 }
@@ -99,8 +99,7 @@ void addPlan(CLI::App& app, const GlobalOptions& global, Action& action) {
   auto o = std::make_shared<PlanOptions>();
   CLI::App* command = app.add_subcommand("plan", "One next best view for a map");
   command->add_option("map", o->map, "TSDF (.vti) or RUN#STEP")->required()->type_name("MAP");
-  command->add_option("--planner", o->planner, "How the view is chosen")
-      ->check(CLI::IsMember({kPlannerContour, kPlannerStandard}));
+  command->add_option("--planner", o->planner, "How the view is chosen")->check(isPlanner());
   command
       ->add_option("-o,--output", o->output, "All scored views in the order in which they were ranked, CSV")
       ->type_name("PLAN.csv");

@@ -12,13 +12,18 @@ struct StageSummary {
   std::optional<double> seconds;
 };
 
+std::size_t changedBricks(const StepRecord& r) {
+  return (r.changed_bricks ? r.changed_bricks->size() : 0) +
+         (r.changed_octree_bricks ? r.changed_octree_bricks->size() : 0);
+}
+
 StageSummary summarise(const StepRecord& r) {
   const Timings& t = r.timings;
   switch (r.stage) {
     case Stage::Sense:
       return {fmt::format("{} frames", r.scan.size()), t.sense};
     case Stage::Fuse:
-      return {fmt::format("{} bricks changed", r.changed_bricks->size()), t.fuse};
+      return {fmt::format("{} bricks changed", changedBricks(r)), t.fuse};
     case Stage::Contours:
       return {
           fmt::format("{} contour voxels, {} points", r.contours->voxels.size(), r.contours->points.size()),
@@ -31,12 +36,12 @@ StageSummary summarise(const StepRecord& r) {
     case Stage::Saliency:
       return {fmt::format("{} segments", r.saliency->segments.size()), t.saliency};
     case Stage::Generation:
-      return {fmt::format("{} positions", r.positions->size()), t.generation};
+      return {r.positions ? fmt::format("{} positions", r.positions->size()) : "", t.generation};
     case Stage::Evaluation:
-      return {fmt::format("{} poses scored, {} rays", r.search->counts.poses_scored, r.search->counts.rays),
+      return {fmt::format("{} poses scored, {} rays", r.counts()->poses_scored, r.counts()->rays),
               t.evaluation};
     case Stage::Motion:
-      return {fmt::format("{:.2f} m", r.search->chosen->path.length_m), t.motion_planning};
+      return {fmt::format("{:.2f} m", r.chosen()->path.length_m), t.motion_planning};
     case Stage::Realised:
       return {fmt::format("{} voxels realised", r.realised_voxels.value_or(0)), {}};
     case Stage::Done:
@@ -45,19 +50,45 @@ StageSummary summarise(const StepRecord& r) {
   return {"", {}};
 }
 
-std::string mapText(const MapMetrics& m) {
+std::string mapText(const StepRecord& r) {
+  const MapMetrics& m = r.metrics;
   std::string text = fmt::format("{} unknown voxels in the workspace", m.unknown_voxels);
   if (m.unknown_near_objects) text += fmt::format(", {} near objects", *m.unknown_near_objects);
+  if (r.box) text += fmt::format(", {} in the object's box", r.box->unknown);
   if (m.coverage) text += fmt::format(", coverage {:.1f} %", *m.coverage * 100);
   return text;
 }
 
+/// The choice of the hierarchical planner.
+std::string utilityText(const StepRecord& r) {
+  const UtilitySearch& u = *r.utilities;
+  const std::string rejected =
+      fmt::format("{} of {} views rejected by position, {} by registration", u.rejected_position,
+                  u.counts.poses_generated, u.rejected_registration);
+  const ViewUtility* view = chosenUtility(u);
+  if (!view)
+    return fmt::format(
+        "no view: the best of the others sees {:.0f} unknown, {} enough, {} of these unreachable; {}",
+        u.best_unknown, u.counts.poses_above_threshold, u.counts.poses_unreachable, rejected);
+  const Eigen::Vector3d p = view->T_world_camera.translation();
+  std::string text = fmt::format(
+      "view {} at ({:.2f}, {:.2f}, {:.2f}) m sees {:.0f} unknown and {:.0f} occupied, distance factor "
+      "{:.2f}, "
+      "utility {:.3g}; {}; {} better ones unreachable",
+      view->id, p.x(), p.y(), p.z(), view->unknown, view->occupied, view->distance, view->utility, rejected,
+      u.counts.poses_unreachable);
+  if (u.chosen->path.verdict != Reachability::Reachable)
+    text += fmt::format("; motion: {}", toString(u.chosen->path.verdict));
+  return text;
+}
+
 std::string choiceText(const StepRecord& r) {
+  if (r.utilities) return utilityText(r);
   const SearchCounts& n = r.search->counts;
   if (!r.hasView())
     return fmt::format("no view: {} poses scored, {} above the threshold, {} of them unreachable",
                        n.poses_scored, n.poses_above_threshold, n.poses_unreachable);
-  const ChosenView& c = *r.search->chosen;
+  const ContourChosenView& c = *r.search->chosen;
   const SegmentSearch& search = r.search->segments[c.search];
   std::string text;
   if (search.segment >= 0)
@@ -85,7 +116,7 @@ std::string stageText(const StepRecord& record) {
 }
 
 std::string servedText(const StepRecord& record) {
-  const Pose& planned = record.search->chosen->T_world_camera;
+  const Pose& planned = record.chosen()->T_world_camera;
   const Pose& served = record.served->T_world_camera;
   return fmt::format("        served by frame {}, {:.2f} m and {:.0f} deg from the view",
                      record.served->frame, (served.translation() - planned.translation()).norm(),
@@ -93,8 +124,8 @@ std::string servedText(const StepRecord& record) {
 }
 
 std::string stepText(const StepRecord& record) {
-  if (record.closing) return fmt::format("end     {}", mapText(record.metrics));
-  return fmt::format("step {:<2} {}\n        {}", record.step, choiceText(record), mapText(record.metrics));
+  if (record.closing) return fmt::format("end     {}", mapText(record));
+  return fmt::format("step {:<2} {}\n        {}", record.step, choiceText(record), mapText(record));
 }
 
 }  // namespace vantage::app
