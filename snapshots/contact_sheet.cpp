@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "snapshots/step_maps.h"
 #include "viewer/legend.h"
 #include "viewer/page.h"
 
@@ -36,33 +37,49 @@ void placeInset(RgbImage& image, const RgbImage& inset, int width) {
   }
 }
 
+std::vector<ContactSheet::Column> columnsOf(const std::vector<Recipe>& recipes) {
+  std::vector<ContactSheet::Column> columns;
+  for (const Recipe& recipe : recipes) columns.push_back({recipe.title, recipe});
+  return columns;
+}
+
 }  // namespace
 
-ContactSheet::ContactSheet(std::string title, std::vector<Recipe> columns)
+ContactSheet::ContactSheet(std::string title, std::vector<Column> columns)
     : title_(std::move(title)), columns_(std::move(columns)) {
   if (columns_.empty()) throw std::invalid_argument("contact sheet: it needs at least one recipe");
 }
 
+ContactSheet::ContactSheet(std::string title, const std::vector<Recipe>& columns)
+    : ContactSheet(std::move(title), columnsOf(columns)) {}
+
+std::string ContactSheet::labelOf(const StepRecord& record) {
+  return record.closing ? "end" : std::to_string(record.step);
+}
+
 void ContactSheet::addRow(Scene& scene, OffscreenRenderer& renderer, const SceneFrame& frame) {
-  Row row;
-  row.label = frame.record.closing ? "end" : std::to_string(frame.record.step);
-  for (const Recipe& recipe : columns_) {
-    Tile tile;
-    if (frame.record.closing && recipe.planning()) {
-      row.tiles.push_back(tile);
-      continue;
-    }
-    scene.show(viewFor(recipe, frame), {}, PageStyle::ViewOnly, kTileWidth, kTileHeight);
-    tile.image = renderer.render(scene.renderers(), kTileWidth, kTileHeight);
-    tile.caption = recipe.figures(frame);
-    for (const LayerNotes* notes : scene.shownNotes()) {
-      if (notes->scale) tile.scales.push_back(*notes->scale);
-      if (notes->inset) placeInset(tile.image, notes->inset->image, kInsetWidth);
-      tile.legend.insert(tile.legend.end(), notes->legend.begin(), notes->legend.end());
-    }
-    row.tiles.push_back(std::move(tile));
+  beginRow(labelOf(frame.record));
+  for (std::size_t c = 0; c < columns_.size(); ++c) setTile(c, scene, renderer, frame);
+}
+
+void ContactSheet::beginRow(const std::string& label) {
+  rows_.push_back({label, std::vector<Tile>(columns_.size())});
+}
+
+void ContactSheet::setTile(std::size_t column, Scene& scene, OffscreenRenderer& renderer,
+                           const SceneFrame& frame) {
+  const Recipe& recipe = columns_.at(column).recipe;
+  Tile& tile = rows_.back().tiles.at(column);
+  if (frame.record.closing && recipe.planning()) return;
+  if (!recipe.fits(plannerKindOf(frame.header, frame.record))) return;
+  scene.show(viewFor(recipe, frame), {}, PageStyle::ViewOnly, kTileWidth, kTileHeight);
+  tile.image = renderer.render(scene.renderers(), kTileWidth, kTileHeight);
+  tile.caption = recipe.figures(frame, recipe.view.style);
+  for (const LayerNotes* notes : scene.shownNotes()) {
+    if (notes->scale) tile.scales.push_back(*notes->scale);
+    if (notes->inset) placeInset(tile.image, notes->inset->image, kInsetWidth);
+    tile.legend.insert(tile.legend.end(), notes->legend.begin(), notes->legend.end());
   }
-  rows_.push_back(std::move(row));
 }
 
 RgbImage ContactSheet::draw(OffscreenRenderer& renderer) const {
@@ -74,7 +91,7 @@ RgbImage ContactSheet::draw(OffscreenRenderer& renderer) const {
   page.text(kMargin, 18, title_, textOf(28, true));
   for (int c = 0; c < columns; ++c) {
     const double x = kMargin + kRowHead + c * (kTileWidth + kGap);
-    page.text(x, 64, columns_[c].title, textOf(19, true));
+    page.text(x, 64, columns_[c].heading, textOf(19, true));
     // The legend of a column holds what any of its tiles shows.
     LayerNotes legend;
     for (int r = 0; r < rows(); ++r) {

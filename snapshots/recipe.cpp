@@ -13,6 +13,7 @@ ViewSettings viewOf(LayerSet layers) {
   ViewSettings view;
   view.layers = layers;
   view.layers.set(Layer::Workspace, true);
+  view.layers.set(Layer::ObjectBox, true);
   view.layers.set(Layer::Axes, true);
   return view;
 }
@@ -32,6 +33,19 @@ std::vector<Recipe> makeRecipes() {
                  "the best views, the chosen one and the path to it",
                  viewOf({Layer::Surface, Layer::Unknown, Layer::RankedViews, Layer::ChosenView, Layer::Path}),
                  viewFigures});
+  ViewSettings octree = viewOf({Layer::Octree});
+  all.push_back({"octree", "Octree where tracing starts",
+                 "occupied and unknown nodes at one depth of the octree", octree, octreeFigures});
+  ViewSettings rays = viewOf({Layer::Truth, Layer::HitVoxels, Layer::CoarseRays, Layer::RefinedRays});
+  rays.style.truth_opacity = 0.25;
+  rays.layers.set(Layer::Workspace, false);
+  rays.camera.object = true;
+  all.push_back({"rays", "Rays of the next best view", "coarse rays, refined rays and what they hit", rays,
+                 rayFigures});
+  all.push_back({"utility", "Utility of the candidate views",
+                 "all candidates coloured by utility, those that fell out and the chosen one",
+                 viewOf({Layer::Occupied, Layer::Unknown, Layer::UtilitySphere, Layer::Path}),
+                 utilityFigures});
   all.push_back({"candidates", "Candidate views", "the positions of all candidate views",
                  viewOf({Layer::Surface, Layer::Candidates, Layer::ChosenView}), contourFigures});
   all.push_back({"slice", "Slice through the voxel states",
@@ -48,9 +62,9 @@ std::vector<Recipe> makeRecipes() {
 }  // namespace
 
 bool Recipe::planning() const {
-  static constexpr Layer kOfTheMap[] = {Layer::Workspace, Layer::Axes,      Layer::Truth,  Layer::Occupied,
-                                        Layer::Unknown,   Layer::Free,      Layer::Slices, Layer::Surface,
-                                        Layer::Sensor,    Layer::DepthImage};
+  static constexpr Layer kOfTheMap[] = {Layer::Workspace, Layer::ObjectBox, Layer::Axes,   Layer::Truth,
+                                        Layer::Occupied,  Layer::Unknown,   Layer::Free,   Layer::Slices,
+                                        Layer::Octree,    Layer::Surface,   Layer::Sensor, Layer::DepthImage};
   LayerSet rest = view.layers;
   for (const Layer layer : kOfTheMap) rest.set(layer, false);
   return rest != LayerSet();
@@ -67,8 +81,27 @@ std::vector<std::string> recipeNames() {
   return names;
 }
 
-std::vector<std::string> defaultRecipes() {
+bool Recipe::fits(PlannerKind planner) const {
+  static constexpr Layer kOnTsdf[] = {Layer::Segments, Layer::SegmentRanks, Layer::ContourVoxels,
+                                      Layer::ContourPoints};
+  static constexpr Layer kOnOctree[] = {Layer::Octree, Layer::UtilitySphere, Layer::HitVoxels,
+                                        Layer::CoarseRays, Layer::RefinedRays};
+  const auto shows = [&](Layer layer) { return view.layers.has(layer); };
+  return usesOctree(planner) ? std::ranges::none_of(kOnTsdf, shows) : std::ranges::none_of(kOnOctree, shows);
+}
+
+std::vector<std::string> defaultRecipes(PlannerKind planner) {
+  if (usesOctree(planner)) return {"scene", "states", "octree", "rays", "utility", "views"};
   return {"scene", "states", "contours", "segments", "views"};
+}
+
+std::vector<std::string> defaultRecipesOf(const RunHeader& header) {
+  std::vector<std::string> names;
+  for (const PlannerKind planner : plannersFromText(header.planner)) {
+    for (const std::string& name : defaultRecipes(planner))
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
+  return names;
 }
 
 const Recipe& recipeNamed(const std::string& name) {
@@ -83,6 +116,10 @@ ViewSettings viewFor(const Recipe& recipe, const SceneFrame& frame) {
   if (view.layers.has(Layer::Truth) && (!frame.truth || frame.truth->empty())) {
     view.layers.set(Layer::Truth, false);
     view.layers.set(Layer::Surface, true);
+  }
+  if (view.layers.has(Layer::Surface) && onOctree(frame) && !frame.record.surface) {
+    view.layers.set(Layer::Surface, false);
+    view.layers.set(Layer::Occupied, true);
   }
   return view;
 }

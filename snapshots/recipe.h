@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/exploration/planner_kind.h"
+#include "viewer/captions.h"
 #include "viewer/scene.h"
 
 namespace vantage {
@@ -14,9 +16,11 @@ struct Recipe {
   std::string title;    ///< above the picture
   std::string purpose;  ///< one line for help texts
   ViewSettings view;
-  std::string (*figures)(const SceneFrame& frame) = nullptr;  ///< the sentence under the title
+  Figures* figures = nullptr;  ///< the sentence under the title
   /// Shows products of planning, which the map after the last scan does not have.
   bool planning() const;
+  /// The products that it shows can exist for a step of that planner.
+  bool fits(PlannerKind planner) const;
 };
 
 /// All recipes, in the order of a contact sheet's columns.
@@ -25,8 +29,11 @@ const std::vector<Recipe>& recipes();
 /// Names of all recipes.
 std::vector<std::string> recipeNames();
 
-/// Names of those that are made unless others are asked for.
-std::vector<std::string> defaultRecipes();
+/// Names of those that are made of a step unless others are asked for.
+std::vector<std::string> defaultRecipes(PlannerKind planner = PlannerKind::Contour);
+
+/// The same for a whole run, for all its planners (RunHeader::planner), each recipe once.
+std::vector<std::string> defaultRecipesOf(const RunHeader& header);
 
 /// \throws InputError that suggests the nearest known name.
 const Recipe& recipeNamed(const std::string& name);
@@ -36,7 +43,8 @@ const Recipe& recipeNamed(const std::string& name);
 ///
 ///     title = "Below the jugs"               # above the picture; default: the file's name
 ///     caption = "states"                     # sentence under the title: scan, states, contours, segments,
-///     views layers = ["surface", "unknown"]        # see layerNames(); workspace, axes are layers too
+///                                            # views, octree, rays, utility
+///     layers = ["surface", "unknown"]        # see layerNames(); workspace, axes are layers too
 ///
 ///     [style]
 ///     unknown_opacity = 0.1                  # (0, 0.15]
@@ -49,15 +57,21 @@ const Recipe& recipeNamed(const std::string& name);
 ///     frustum_length_m = 0.1
 ///     slice_axis = "y"                       # normal of the slice: x, y or z
 ///     slice_at_m = 0.05                      # its place on that axis, world; default: middle of the
-///     workspace label_px = 15 line_scale = 1.0
+///     workspace octree_level = 2                       # 0..8, nodes of 2^level voxels; default: where
+///     tracing starts view_id = 17                           # whose rays are drawn; default: the chosen view
+///     coarse_rays = 300                      # how many of them at most
+///     utility_factor = "utility"             # what colours candidates: utility, unknown, occupied, distance
+///     label_px = 15
+///     line_scale = 1.0
 ///
 ///     [camera]
 ///     azimuth_deg = -59                      # of the eye from +x about z
 ///     elevation_deg = 39                     # above the horizon
 ///     fov_deg = 25                           # vertical aperture
 ///     zoom = 1.0                             # 1: all that must be seen fills the picture
-///     front_m = 0.2                          # space before the workspace (-y) that must be seen; see
-///     CameraView height_share = 0.8                     # share of the workspace's height that must be seen
+///     focus = "workspace"                    # what must be seen: workspace, or object (the object's box)
+///     front_m = 0.2                          # space before the workspace (-y) that must be seen
+///     height_share = 0.8                     # share of the workspace's height that must be seen
 ///
 /// \throws InputError naming FILE:LINE: not readable, not TOML, unknown keys or layers (with the nearest
 /// known one), values out of range.
@@ -67,7 +81,11 @@ Recipe readRecipe(const std::filesystem::path& file);
 /// \throws InputError
 Recipe recipeFrom(const std::string& name_or_file);
 
-/// The recipe's view for a frame: without ground truth the fused surface stands in for the true scene.
+/// Sets one key of a style as a recipe file would, from "KEY=VALUE"; text needs no quotes. \throws InputError
+void setStyle(LayerStyle& style, const std::string& assignment);
+
+/// The recipe's view for a frame: without ground truth the fused surface stands in for the true scene, and
+/// where there is no fused surface the occupied voxels do.
 ViewSettings viewFor(const Recipe& recipe, const SceneFrame& frame);
 
 }  // namespace vantage

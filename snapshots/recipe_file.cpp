@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -18,13 +19,11 @@ namespace vantage {
 namespace {
 
 constexpr double kRadians = std::numbers::pi / 180.0;
-using Figures = std::string (*)(const SceneFrame&);
 
-constexpr std::pair<const char*, Figures> kCaptions[] = {{"scan", scanFigures},
-                                                         {"states", stateFigures},
-                                                         {"contours", contourFigures},
-                                                         {"segments", segmentFigures},
-                                                         {"views", viewFigures}};
+constexpr std::pair<const char*, Figures*> kCaptions[] = {
+    {"scan", scanFigures},        {"states", stateFigures},   {"contours", contourFigures},
+    {"segments", segmentFigures}, {"views", viewFigures},     {"octree", octreeFigures},
+    {"rays", rayFigures},         {"utility", utilityFigures}};
 
 constexpr std::pair<const char*, double LayerStyle::*> kStyleNumbers[] = {
     {"unknown_opacity", &LayerStyle::unknown_opacity},   {"free_opacity", &LayerStyle::free_opacity},
@@ -33,7 +32,12 @@ constexpr std::pair<const char*, double LayerStyle::*> kStyleNumbers[] = {
     {"frustum_length_m", &LayerStyle::frustum_length_m}, {"line_scale", &LayerStyle::line_scale}};
 
 constexpr std::pair<const char*, int LayerStyle::*> kStyleCounts[] = {
-    {"ranked_views", &LayerStyle::ranked_views}, {"unreachable_views", &LayerStyle::unreachable_views}};
+    {"ranked_views", &LayerStyle::ranked_views},
+    {"unreachable_views", &LayerStyle::unreachable_views},
+    {"coarse_rays", &LayerStyle::coarse_rays}};
+
+constexpr std::pair<const char*, std::optional<int> LayerStyle::*> kStyleChoices[] = {
+    {"octree_level", &LayerStyle::octree_level}, {"view_id", &LayerStyle::view_id}};
 
 /// A number of the camera and what one unit of it in the file is.
 struct CameraNumber {
@@ -59,19 +63,38 @@ void check(const Settings& settings, const SceneTable& table, const std::string&
   }
 }
 
+int readCount(SceneTable& table, const char* key, int fallback) {
+  const double count = table.number(key, fallback);
+  if (count != std::floor(count) || std::abs(count) > 1e9)
+    table.fail(key, std::string("'") + key + "' is no count; give a whole number");
+  return static_cast<int>(count);
+}
+
+UtilityFactor readFactor(SceneTable& table, UtilityFactor fallback) {
+  const std::string wanted = table.text("utility_factor", std::string(factorName(fallback)));
+  if (const auto factor = factorNamed(wanted)) return *factor;
+  std::vector<std::string> known;
+  for (const std::string_view name : factorNames()) known.emplace_back(name);
+  table.fail("utility_factor", "there is no factor '" + wanted + "'" + suggestion(wanted, known));
+}
+
 void readStyle(SceneTable table, LayerStyle& style) {
   for (const auto& [key, member] : kStyleNumbers) {
     style.*member = table.number(key, style.*member);
     check(style, table, key);
   }
   for (const auto& [key, member] : kStyleCounts) {
-    const double count = table.number(key, style.*member);
-    if (count != std::floor(count) || std::abs(count) > 1e6)
-      table.fail(key, std::string("'") + key + "' is no count; give a whole number");
-    style.*member = static_cast<int>(count);
+    style.*member = readCount(table, key, style.*member);
     check(style, table, key);
   }
-  const std::string axis = table.text("slice_axis", "y");
+  for (const auto& [key, member] : kStyleChoices) {
+    table.accept({key});
+    if (table.has(key)) style.*member = readCount(table, key, 0);
+    check(style, table, key);
+  }
+  style.utility_factor = readFactor(table, style.utility_factor);
+  const std::string axis =
+      table.text("slice_axis", std::string(1, static_cast<char>('x' + style.slice_axis)));
   if (axis != "x" && axis != "y" && axis != "z")
     table.fail("slice_axis", "'" + axis + "' is no axis; allowed: x, y, z");
   style.slice_axis = axis[0] - 'x';
@@ -91,6 +114,10 @@ void readCamera(SceneTable table, CameraView& camera) {
     if (table.has(key)) camera.*member = table.number(key);
     check(camera, table, key);
   }
+  const std::string focus = table.text("focus", camera.object ? "object" : "workspace");
+  if (focus != "object" && focus != "workspace")
+    table.fail("focus", "there is no focus '" + focus + "'; allowed: workspace, object");
+  camera.object = focus == "object";
   table.finish();
 }
 
@@ -119,7 +146,7 @@ LayerSet readLayers(const toml::table& document, const std::string& source) {
   return layers;
 }
 
-Figures readCaption(SceneTable& table) {
+Figures* readCaption(SceneTable& table) {
   const std::string wanted = table.text("caption", "states");
   std::vector<std::string> known;
   for (const auto& [name, figures] : kCaptions) {
@@ -173,6 +200,22 @@ Recipe readRecipe(const std::filesystem::path& file) {
   top.accept({"layers", "style", "camera"});
   top.finish();
   return recipe;
+}
+
+void setStyle(LayerStyle& style, const std::string& assignment) {
+  const std::size_t equals = assignment.find('=');
+  const std::string source = "style '" + assignment + "'";
+  if (equals == 0 || equals == std::string::npos || equals + 1 == assignment.size())
+    throw InputError(source, "is no assignment; write KEY=VALUE, e.g. octree_level=2");
+  const std::string key = assignment.substr(0, equals), value = assignment.substr(equals + 1);
+  char* end = nullptr;
+  const double number = std::strtod(value.c_str(), &end);
+  toml::table table;
+  if (*end == '\0')
+    table.insert(key, number);
+  else
+    table.insert(key, value);
+  readStyle({table, source, "style"}, style);
 }
 
 Recipe recipeFrom(const std::string& name_or_file) {

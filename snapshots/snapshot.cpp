@@ -8,6 +8,7 @@
 #include "io/error.h"
 #include "io/suggest.h"
 #include "snapshots/contact_sheet.h"
+#include "snapshots/step_maps.h"
 #include "viewer/captions.h"
 
 namespace vantage {
@@ -77,39 +78,41 @@ class SnapshotSession {
  public:
   SnapshotSession(const std::filesystem::path& run, const SnapshotRequest& request, const RunControl& control)
       : run_(run), request_(request), control_(control), reader_(run) {
-    const std::vector<std::string> names = request.recipes.empty() ? defaultRecipes() : request.recipes;
-    for (const std::string& name : names) recipes_.push_back(recipeFrom(name));
+    const std::vector<std::string> names =
+        request.recipes.empty() ? defaultRecipesOf(reader_.header()) : request.recipes;
+    for (const std::string& name : names) {
+      recipes_.push_back(recipeFrom(name));
+      for (const std::string& assignment : request.style) setStyle(recipes_.back().view.style, assignment);
+    }
     steps_ = stepsOf(reader_, request, recipes_, run);
     checkRequest(request, steps_.size(), recipes_.size());
     name_ = run.stem().string();
     context_ = std::make_unique<EglContext>();
     renderer_ = std::make_unique<OffscreenRenderer>(*context_);
-    volume_ = TsdfVolume(reader_.header().volume);
-    states_ = StateGrid(reader_.header().volume);
   }
 
   std::vector<std::filesystem::path> take() {
-    const std::uint64_t total = steps_.size() * recipes_.size();
     for (const int step : steps_) {
       control_.check();
-      drawStep(step, total);
+      drawStep(step);
     }
     if (sheet_ && sheet_->rows() > 0) finishSheet();
     return written_;
   }
 
  private:
-  void drawStep(int step, std::uint64_t total) {
-    states_.update(volume_, reader_.advanceVolume(volume_, volume_step_, step));
-    volume_step_ = step;
+  void drawStep(int step) {
     const bool closing = reader_.hasClosing() && step == reader_.closingStep();
-    const StepRecord record = closing ? reader_.closing() : reader_.step(step);
-    const SceneFrame frame{reader_.header(), record, states_, &reader_.header().truth};
+    const StepRecord record =
+        closing ? reader_.closing(RunDetail::NoVolume) : reader_.step(step, RunDetail::NoVolume);
+    const SceneFrame frame = maps_.at(record);
     scene_.setFrame(frame);
+    const std::uint64_t total = steps_.size() * recipes_.size();
     for (const Recipe& recipe : recipes_) {
       control_.check();
       control_.report("pictures", done_++, total);
       if (closing && recipe.planning()) continue;
+      if (request_.recipes.empty() && !recipe.fits(plannerKindOf(reader_.header(), record))) continue;
       const RgbImage image = drawRecipe(scene_, *renderer_, recipe, frame, request_.width, request_.height);
       written_.push_back(snapshotPath(request_.output, name_, step, recipe.name));
       writePng(image, written_.back());
@@ -144,9 +147,7 @@ class SnapshotSession {
   std::vector<int> steps_;
   std::unique_ptr<EglContext> context_;
   std::unique_ptr<OffscreenRenderer> renderer_;
-  TsdfVolume volume_;
-  StateGrid states_;
-  int volume_step_ = 0;
+  StepMaps maps_{reader_};
   Scene scene_;
   std::unique_ptr<ContactSheet> sheet_;
   int sheets_ = 0;
@@ -185,7 +186,8 @@ std::filesystem::path snapshotPath(const std::string& output, const std::string&
 
 RgbImage drawRecipe(Scene& scene, OffscreenRenderer& renderer, const Recipe& recipe, const SceneFrame& frame,
                     int width, int height) {
-  scene.show(viewFor(recipe, frame), {recipe.title, stepLine(frame), recipe.figures(frame)}, PageStyle::Full,
+  scene.show(viewFor(recipe, frame),
+             {recipe.title, stepLine(frame), recipe.figures(frame, recipe.view.style)}, PageStyle::Full,
              width, height);
   return renderer.render(scene.renderers(), width, height);
 }

@@ -19,8 +19,10 @@ struct SnapshotRequest {
   /// One step; empty = all recorded ones and, where a recipe shows the map only, the map after the last scan.
   /// kEnd and the number after the last step name that map.
   std::optional<int> step;
-  std::vector<std::string> recipes;  ///< names or files (recipeFrom()); empty = defaultRecipes()
-  int width = 1280, height = 800;    ///< pixels, kSmallestSide..kLargestPicture
+  /// Names or files (recipeFrom()); empty = those of each step's planner, see defaultRecipes().
+  std::vector<std::string> recipes;
+  std::vector<std::string> style;  ///< settings for all recipes, each KEY=VALUE, see setStyle()
+  int width = 1280, height = 800;  ///< pixels, kSmallestSide..kLargestPicture
   /// A file name ending in .png, or a folder. `{run}`, `{step}` and `{view}` are replaced by the run's name,
   /// the step's number and the recipe's name; in a folder the files are `{run}-step{step}-{view}.png`.
   std::string output;

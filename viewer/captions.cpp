@@ -46,11 +46,10 @@ std::string refusals(const SegmentSearch& search, double threshold) {
       ++counts[score.reachability];
     }
   }
-  static const std::map<Reachability, std::string> kWords = {{Reachability::OutOfReach, "out of reach"},
-                                                             {Reachability::InCollision, "in collision"},
-                                                             {Reachability::NotConnected, "cut off"},
-                                                             {Reachability::NoPath, "without a path"},
-                                                             {Reachability::TimedOut, "out of time"}};
+  static const std::map<Reachability, std::string> kWords = {
+      {Reachability::OutOfReach, "out of reach"}, {Reachability::InCollision, "in collision"},
+      {Reachability::NotConnected, "cut off"},    {Reachability::NoPath, "without a path"},
+      {Reachability::TimedOut, "out of time"},    {Reachability::NoFrame, "without a frame"}};
   std::string text;
   for (const auto& [verdict, count] : counts) {
     const auto word = kWords.find(verdict);
@@ -59,8 +58,12 @@ std::string refusals(const SegmentSearch& search, double threshold) {
   return text;
 }
 
-const std::string& plannerOf(const SceneFrame& frame) {
-  return frame.record.planner.empty() ? frame.header.planner : frame.record.planner;
+/// " Path: 1.20 m, straight." of a chosen view that a path leads to.
+template <class Search>
+std::string pathText(const Search& search) {
+  if (!search.chosen || search.chosen->path.length_m <= 0.0) return "";
+  return format(" Path: %.2f m, %s.", search.chosen->path.length_m,
+                search.chosen->path.straight ? "straight" : "around obstacles");
 }
 
 }  // namespace
@@ -75,6 +78,14 @@ std::string grouped(std::uint64_t value) {
   return text;
 }
 
+std::string lengthText(double metres) {
+  const auto [value, unit] = metres < 0.01 - 1e-9  ? std::pair{metres * 1e3, "mm"}
+                             : metres < 1.0 - 1e-9 ? std::pair{metres * 1e2, "cm"}
+                                                   : std::pair{metres, "m"};
+  const bool whole = std::abs(value - std::round(value)) < 0.005;
+  return format(whole ? "%.0f %s" : value < 10.0 ? "%.1f %s" : "%.0f %s", value, unit);
+}
+
 std::string stepLine(const SceneFrame& frame) {
   const std::string input = std::filesystem::path(frame.header.input).stem().string();
   std::string text = input.empty() ? "run" : input;
@@ -87,7 +98,7 @@ std::string stepLine(const SceneFrame& frame) {
   return text;
 }
 
-std::string scanFigures(const SceneFrame& frame) {
+std::string scanFigures(const SceneFrame& frame, const LayerStyle&) {
   const StepRecord& record = frame.record;
   if (!record.depth) return "No depth image was recorded.";
   std::uint64_t valid = 0;
@@ -102,7 +113,7 @@ std::string scanFigures(const SceneFrame& frame) {
   return text;
 }
 
-std::string stateFigures(const SceneFrame& frame) {
+std::string stateFigures(const SceneFrame& frame, const LayerStyle&) {
   const Box& box = frame.header.workspace;
   const std::uint64_t unknown = frame.states.count(VoxelState::Unknown, box);
   const std::uint64_t known =
@@ -110,8 +121,11 @@ std::string stateFigures(const SceneFrame& frame) {
   const std::uint64_t all = std::max<std::uint64_t>(1, unknown + known);
   std::string text = "Unknown: " + grouped(unknown) + " of " + grouped(unknown + known) +
                      " voxels of the workspace (" + percent(static_cast<double>(unknown) / all) +
-                     "), voxels of " + format("%.1f mm.", frame.header.volume.voxel_size_m * 1e3);
-  if (frame.record.metrics.unknown_near_objects) {
+                     "), voxels of " + lengthText(frame.states.geometry().voxel_size_m) + ".";
+  if (frame.record.box && onOctree(frame)) {
+    text += " In the object's box: " + grouped(frame.record.box->unknown) + " unknown, " +
+            grouped(frame.record.box->occupied) + " occupied.";
+  } else if (frame.record.metrics.unknown_near_objects) {
     text += " Within 5 cm of the objects: " + grouped(*frame.record.metrics.unknown_near_objects) + ".";
   }
   if (frame.record.metrics.coverage)
@@ -119,14 +133,16 @@ std::string stateFigures(const SceneFrame& frame) {
   return text;
 }
 
-std::string contourFigures(const SceneFrame& frame) {
+std::string contourFigures(const SceneFrame& frame, const LayerStyle&) {
+  if (onOctree(frame))
+    return "The " + plannerOf(frame) + " planner has no contours: it traces rays in the octree.";
   const auto& contours = frame.record.contours;
   if (!contours || contours->voxels.empty())
     return "No contours: no free voxel touches both surface and unknown.";
   std::string text = plural(contours->voxels.size(), "contour voxel") +
                      " (free, beside surface and unknown) reduced to " +
                      plural(contours->points.size(), "contour point");
-  const int poses = frame.header.planner_config.views.posesPerPoint();
+  const int poses = frame.header.contour_config.views.posesPerPoint();
   if (frame.record.positions) {
     text += " with " + std::to_string(poses) +
             " view poses each: " + plural(contours->points.size() * poses, "pose");
@@ -134,7 +150,9 @@ std::string contourFigures(const SceneFrame& frame) {
   return text + ".";
 }
 
-std::string segmentFigures(const SceneFrame& frame) {
+std::string segmentFigures(const SceneFrame& frame, const LayerStyle&) {
+  if (onOctree(frame))
+    return "The " + plannerOf(frame) + " planner has no segments: it traces rays in the octree.";
   const StepRecord& record = frame.record;
   if (!record.saliency || record.saliency->segments.empty()) {
     return plannerOf(frame) == "standard"
@@ -153,11 +171,12 @@ std::string segmentFigures(const SceneFrame& frame) {
   return text + (searches.size() > shown ? "; ..." : ".");
 }
 
-std::string viewFigures(const SceneFrame& frame) {
+std::string viewFigures(const SceneFrame& frame, const LayerStyle& style) {
   const StepRecord& record = frame.record;
+  if (record.utilities) return utilityFigures(frame, style) + pathText(*record.utilities);
   if (!record.search) return "No views were evaluated.";
   const ViewSearch& search = *record.search;
-  const double threshold = frame.header.planner_config.gain.gain_threshold;
+  const double threshold = frame.header.contour_config.gain.gain_threshold;
   const std::string limit = "the threshold of " + grouped(static_cast<std::uint64_t>(threshold)) + " rays";
   if (!search.chosen) {
     std::string text = "No view was chosen: " + plural(search.counts.poses_scored, "pose") + " scored, " +
@@ -166,7 +185,7 @@ std::string viewFigures(const SceneFrame& frame) {
       text += ", " + grouped(search.counts.poses_unreachable) + " of them cannot be reached";
     return text + ".";
   }
-  const ChosenView& chosen = *search.chosen;
+  const ContourChosenView& chosen = *search.chosen;
   const SegmentSearch* segment = shownSearch(record);
   std::string text;
   if (chosen.search > 0) text = plural(chosen.search, "more salient segment") + " had no view; ";
@@ -179,11 +198,7 @@ std::string viewFigures(const SceneFrame& frame) {
           " rays (" + plural(chosen.gain_voxels, "voxel") + "), above " + limit + ".";
   const std::string refused = segment ? refusals(*segment, threshold) : "";
   if (!refused.empty()) text += " Better views were skipped: " + refused + ".";
-  if (chosen.path.length_m > 0.0) {
-    text += format(" Path: %.2f m, %s.", chosen.path.length_m,
-                   chosen.path.straight ? "straight" : "around obstacles");
-  }
-  return text;
+  return text + pathText(search);
 }
 
 }  // namespace vantage

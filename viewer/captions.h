@@ -3,6 +3,7 @@
 #include <string>
 
 #include "viewer/scene_frame.h"
+#include "viewer/view_settings.h"
 
 namespace vantage {
 
@@ -12,11 +13,19 @@ std::string grouped(std::uint64_t value);
 /// Which run and step a picture shows: "tabletop · contour planner · step 2 · stage evaluation".
 std::string stepLine(const SceneFrame& frame);
 
-// The key figures of a step in one sentence or two, each about one product; never empty.
-std::string scanFigures(const SceneFrame& frame);     ///< where the scan was taken and what it returned
-std::string stateFigures(const SceneFrame& frame);    ///< how much is known
-std::string contourFigures(const SceneFrame& frame);  ///< contours, points, poses
-std::string segmentFigures(const SceneFrame& frame);  ///< segments in the order in which they are tried
-std::string viewFigures(const SceneFrame& frame);     ///< why this view was chosen, or why none
+/// A length in the unit that suits it: "4 cm", "5.9 mm", "1.2 m".
+std::string lengthText(double metres);
+
+// The key figures of a step in one sentence or two, each about one product; never empty. A step whose planner
+// makes no such product is told so. The style says which depth or view a picture is about.
+using Figures = std::string(const SceneFrame& frame, const LayerStyle& style);
+Figures scanFigures;     ///< where the scan was taken and what it returned
+Figures stateFigures;    ///< how much is known
+Figures contourFigures;  ///< contours, points, poses
+Figures segmentFigures;  ///< segments in the order in which they are tried
+Figures viewFigures;     ///< why this view was chosen, or why none
+Figures octreeFigures;   ///< nodes at one depth of the octree
+Figures rayFigures;      ///< what became of the rays of a view
+Figures utilityFigures;  ///< the factors of the chosen view, the next best one, and why others fell out
 
 }  // namespace vantage

@@ -37,6 +37,17 @@ inline constexpr Rgb kPath = rgb(0, 96, 180);
 inline constexpr Rgb kSensor = rgb(40, 44, 52);
 inline constexpr Rgb kUnreachable = rgb(70, 70, 74);
 inline constexpr Rgb kCandidate = rgb(90, 120, 160);
+inline constexpr Rgb kObjectBox = rgb(0, 112, 96);
+inline constexpr Rgb kNode = rgb(60, 78, 104);
+inline constexpr Rgb kUnknownEdge = rgb(190, 110, 0);
+// Fates of rays.
+inline constexpr Rgb kRayMissed = rgb(170, 174, 180);
+inline constexpr Rgb kRayRefined = rgb(160, 70, 150);
+inline constexpr Rgb kRayOccupied = rgb(0, 70, 130);
+// Views that fell out of the cascade.
+inline constexpr Rgb kRejectedPosition = rgb(172, 174, 178);
+inline constexpr Rgb kRejectedRegistration = rgb(228, 230, 232);
+inline constexpr Rgb kRejectedPath = rgb(200, 202, 206);
 }  // namespace palette
 
 /// Perceptually uniform maps, safe for colour-blind readers.

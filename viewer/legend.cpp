@@ -17,6 +17,23 @@ TextStyle small(double unit) {
   return style;
 }
 
+/// A fill with a mark on it, as a picture.
+RgbImage swatch(const LegendEntry& entry) {
+  constexpr int kWidth = 40, kHeight = 26, kHalf = kHeight / 2;
+  RgbImage image(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const int u = std::abs(x - kWidth / 2), v = std::abs(y - kHalf);
+      const bool marked = entry.mark == LegendEntry::Mark::Crossed ? std::abs(u - v) <= 1 && u <= kHalf - 3
+                          : entry.mark == LegendEntry::Mark::Striped
+                              ? x % 10 >= 4 && x % 10 < 7 && v < kHalf - 3
+                              : u + v <= kHalf - 4;
+      image.set(x, y, (marked ? palette::kInk : entry.color).bytes());
+    }
+  }
+  return image;
+}
+
 void drawMark(Page& page, double x, double y, const LegendEntry& entry, double unit) {
   const double w = 20.0 * unit, h = 13.0 * unit, middle = y + h / 2;
   switch (entry.mark) {
@@ -39,13 +56,22 @@ void drawMark(Page& page, double x, double y, const LegendEntry& entry, double u
       page.line(x + 4 * unit, y, x + 4 * unit + h, y + h, entry.color, 2.0 * unit);
       page.line(x + 4 * unit, y + h, x + 4 * unit + h, y, entry.color, 2.0 * unit);
       break;
+    case LegendEntry::Mark::Crossed:
+    case LegendEntry::Mark::Striped:
+    case LegendEntry::Mark::Diamond:
+      page.picture(x, y, w, h, swatch(entry));
+      page.frame(x, y, w, h, palette::kFaintInk);
+      break;
   }
 }
 
 std::string tickText(double value, double span) {
   if (span >= 50.0) return grouped(static_cast<std::uint64_t>(std::max(0.0, std::round(value))));
+  // Three digits of the span.
+  const int digits =
+      span >= 5.0 ? 1 : std::clamp(2 - static_cast<int>(std::floor(std::log10(span) + 0.31)), 2, 9);
   std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), span >= 5.0 ? "%.1f" : "%.2f", value);
+  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
   return text.data();
 }
 
@@ -62,8 +88,7 @@ double drawInset(Page& page, double x, double y, double width, const Inset& inse
 
 double drawScale(Page& page, double x, double y, double width, const ColorScale& scale, double unit) {
   TextStyle style = small(unit);
-  page.text(x, y, scale.title, style);
-  y += 21.0 * unit;
+  y = page.paragraph(x, y, width, scale.title, style) + 2.0 * unit;
   const double height = 14.0 * unit;
   page.colorStrip(x, y, width, height, scale.map);
   page.frame(x, y, width, height, palette::kFaintInk);

@@ -105,10 +105,11 @@ struct Scene::State {
 };
 
 void Scene::State::placeCamera(const CameraView& camera, double width_to_height) const {
-  const Box& workspace = frame->header.workspace;
+  const bool on_object = camera.object && onOctree(*frame) && !frame->header.octree->object_box.isEmpty();
+  const Box& workspace = on_object ? frame->header.octree->object_box : frame->header.workspace;
   const Box box = workspace.isEmpty() ? Box(Eigen::Vector3d(-1, -1, 0), Eigen::Vector3d(1, 1, 1)) : workspace;
   Box seen = box;
-  const bool known_scene = frame->truth && !frame->truth->empty();
+  const bool known_scene = frame->truth && !frame->truth->empty() && !on_object;
   seen.min().y() -= camera.front_m.value_or(known_scene ? 0.2 : 0.0);
   seen.max().z() = seen.min().z() + camera.height_share.value_or(known_scene ? 0.8 : 1.0) * box.sizes().z();
   std::vector<Eigen::Vector3d> points;

@@ -1,6 +1,10 @@
 #include "viewer/scene_frame.h"
 
+#include <algorithm>
+#include <cmath>
 #include <unordered_set>
+
+#include "core/exploration/planner_kind.h"
 
 namespace vantage {
 
@@ -16,8 +20,29 @@ const SegmentSearch* shownSearch(const StepRecord& record) {
   return last;
 }
 
+const std::string& plannerOf(const SceneFrame& frame) {
+  return frame.record.planner.empty() ? frame.header.planner : frame.record.planner;
+}
+
+bool onOctree(const SceneFrame& frame) {
+  return frame.pyramid && frame.tree && frame.header.octree && frame.pyramid->coarseLevels() >= 0;
+}
+
+int coarseLevels(const SceneFrame& frame) {
+  return plannerOf(frame) == toString(PlannerKind::Uniform) ? 0 : frame.header.octree->planner.coarse_levels;
+}
+
+PinholeCamera viewCamera(const SceneFrame& frame) {
+  if (!onOctree(frame)) return frame.header.camera;
+  constexpr int kAcross = 1000;  // pixels; only the aperture matters
+  const RaySensor& sensor = frame.header.octree->planner.sensor;
+  const double tan_h = std::tan(sensor.horizontal_fov_rad / 2), tan_v = std::tan(sensor.vertical_fov_rad / 2);
+  return cameraFromFov(kAcross, std::max(1, static_cast<int>(std::lround(kAcross * tan_v / tan_h))),
+                       sensor.horizontal_fov_rad);
+}
+
 Pose candidatePose(const SceneFrame& frame, std::uint32_t id) {
-  const ContourViewConfig& config = frame.header.planner_config.views;
+  const ContourViewConfig& config = frame.header.contour_config.views;
   const std::uint32_t rolls = static_cast<std::uint32_t>(std::max(1, config.rolls));
   const std::uint32_t position = id / rolls;
   if (!frame.record.positions || position >= frame.record.positions->size()) return Pose::Identity();
@@ -32,14 +57,23 @@ std::vector<RankedPosition> rankedPositions(const SceneFrame& frame, const Segme
   std::vector<RankedPosition> ranked;
   if (!frame.record.positions) return ranked;
   const std::uint32_t rolls =
-      static_cast<std::uint32_t>(std::max(1, frame.header.planner_config.views.rolls));
-  const double threshold = frame.header.planner_config.gain.gain_threshold;
+      static_cast<std::uint32_t>(std::max(1, frame.header.contour_config.views.rolls));
+  const double threshold = frame.header.contour_config.gain.gain_threshold;
   std::unordered_set<std::uint32_t> seen;
   for (const PoseScore& score : search.scores) {
     if (score.gain <= threshold) break;
     if (score.id / rolls >= frame.record.positions->size() || !seen.insert(score.id / rolls).second) continue;
     ranked.push_back(
         {candidatePose(frame, score.id), score.gain, score.id, score.reachability, score.executed_before});
+  }
+  return ranked;
+}
+
+std::vector<RankedPosition> rankedViews(const UtilitySearch& search) {
+  std::vector<RankedPosition> ranked;
+  for (const std::uint32_t index : search.ranking) {
+    const ViewUtility& view = search.views[index];
+    ranked.push_back({view.T_world_camera, view.utility, view.id, view.reachability, false});
   }
   return ranked;
 }

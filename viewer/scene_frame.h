@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/exploration/step_record.h"
-#include "core/volume/state_grid.h"
+#include "core/volume/state_pyramid.h"
 #include "io/run_file.h"
 
 namespace vantage {
@@ -13,29 +13,51 @@ namespace vantage {
 struct SceneFrame {
   const RunHeader& header;
   const StepRecord& record;
-  const StateGrid& states;              ///< as the step was planned
+  const StateGrid& states;              ///< of the map that the step was planned on
   const TriangleMesh* truth = nullptr;  ///< null if not known
+  /// The octree's nodes at all levels, null if the step was not planned on it; `states` is its finest level.
+  const StatePyramid* pyramid = nullptr;
+  const RayTree* tree = nullptr;  ///< rays of the hierarchical planner; null if there are none
 };
+
+/// Name of the planner of a step.
+const std::string& plannerOf(const SceneFrame& frame);
+
+/// The step was planned on the octree, which is there to be drawn.
+bool onOctree(const SceneFrame& frame);
+
+/// Coarse levels at which the step's planner began to trace: the configured ones, 0 for the uniform baseline.
+/// \pre onOctree()
+int coarseLevels(const SceneFrame& frame);
+
+/// What a candidate of the step sees: the planner's ray sensor on the octree, else the camera.
+PinholeCamera viewCamera(const SceneFrame& frame);
 
 /// The search that the pictures of views are about: the chosen one's, else the last that was scored, else
 /// null.
 const SegmentSearch* shownSearch(const StepRecord& record);
 
+/// The path planner was asked and said no.
+constexpr bool isUnreachable(Reachability reachability) {
+  return reachability != Reachability::Reachable && reachability != Reachability::NotChecked;
+}
+
 /// A view position with the best of its rolls.
 struct RankedPosition {
   Pose T_world_camera = Pose::Identity();
-  double gain = 0.0;  ///< rays
+  double gain = 0.0;  ///< rays, or utility
   std::uint32_t id = 0;
   Reachability reachability = Reachability::NotChecked;
   bool executed_before = false;
-  bool unreachable() const {
-    return reachability != Reachability::Reachable && reachability != Reachability::NotChecked;
-  }
+  bool unreachable() const { return isUnreachable(reachability); }
 };
 
 /// Positions of a search by decreasing gain, each once with its best roll; those below the gain threshold are
 /// left out.
 std::vector<RankedPosition> rankedPositions(const SceneFrame& frame, const SegmentSearch& search);
+
+/// Views by decreasing utility.
+std::vector<RankedPosition> rankedViews(const UtilitySearch& search);
 
 /// Pose of a candidate view; identity if its position is not in the record.
 Pose candidatePose(const SceneFrame& frame, std::uint32_t id);

@@ -1,16 +1,35 @@
 #include "viewer/view_settings.h"
 
 #include "core/geometry/check.h"
+#include "core/volume/state_pyramid.h"
 
 namespace vantage {
 namespace {
 
 constexpr std::array<std::string_view, kLayerCount> kNames = {
-    "workspace",  "axes",         "truth",       "occupied",      "unknown",        "free",
-    "slices",     "surface",      "segments",    "segment-ranks", "contour-voxels", "contour-points",
-    "candidates", "ranked-views", "chosen-view", "path",          "sensor",         "depth-image"};
+    "workspace",      "object-box",     "axes",        "truth",          "occupied",   "unknown",
+    "free",           "slices",         "octree",      "surface",        "segments",   "segment-ranks",
+    "contour-voxels", "contour-points", "candidates",  "utility-sphere", "hit-voxels", "coarse-rays",
+    "refined-rays",   "ranked-views",   "chosen-view", "path",           "sensor",     "depth-image"};
+
+constexpr std::array<std::string_view, 4> kFactors = {"utility", "unknown", "occupied", "distance"};
 
 }  // namespace
+
+std::string_view factorName(UtilityFactor factor) {
+  return kFactors[static_cast<std::size_t>(factor)];
+}
+
+std::optional<UtilityFactor> factorNamed(std::string_view name) {
+  for (std::size_t i = 0; i < kFactors.size(); ++i) {
+    if (kFactors[i] == name) return static_cast<UtilityFactor>(i);
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string_view> factorNames() {
+  return {kFactors.begin(), kFactors.end()};
+}
 
 std::string_view layerName(Layer layer) {
   return kNames[static_cast<std::size_t>(layer)];
@@ -35,6 +54,9 @@ void LayerStyle::validate() const {
   requireInRange("unreachable_views", unreachable_views, 0, 500);
   requireInRange("frustum_length_m", frustum_length_m, 1e-3, 10.0);
   requireInRange("slice_axis", slice_axis, 0, 2);
+  if (octree_level) requireInRange("octree_level", *octree_level, 0, StatePyramid::kMaxCoarseLevels);
+  if (view_id) requireInRange("view_id", *view_id, 0, 100'000'000);
+  requireInRange("coarse_rays", coarse_rays, 1, 100'000);
   requireInRange("truth_opacity", truth_opacity, 0.001, 1.0);
   requireInRange("surface_opacity", surface_opacity, 0.001, 1.0);
   requireInRange("label_px", label_px, 4.0, 200.0);

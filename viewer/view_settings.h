@@ -12,25 +12,31 @@ namespace vantage {
 /// Everything that can be switched on in a view, in drawing order.
 enum class Layer : std::uint8_t {
   Workspace,     ///< box of the workspace
+  ObjectBox,     ///< what the hierarchical planner reconstructs (OBB)
   Axes,          ///< axes of the world at a lower corner of the workspace
   Truth,         ///< true scene
   Occupied,      ///< occupied voxels
   Unknown,       ///< frontier of unknown space: its faces toward free voxels
   Free,          ///< boundary of free space
   Slices,        ///< voxel states on a plane
+  Octree,        ///< occupied nodes and the frontier of unknown ones at one depth of the octree
   Surface,       ///< fused surface
   Segments,      ///< the same, coloured by saliency of its segments
   SegmentRanks,  ///< the order in which segments are tried, as numbers beside them
   ContourVoxels,
   ContourPoints,  ///< with their normals
   Candidates,     ///< positions of all candidate views
-  RankedViews,    ///< frusta of the best views of the searched segment
+  UtilitySphere,  ///< utility of the hierarchical planner's candidates, on their sphere
+  HitVoxels,      ///< nodes and voxels on which the rays of a view end
+  CoarseRays,     ///< rays of a view at the level where tracing starts
+  RefinedRays,    ///< their finer rays, in refined nodes
+  RankedViews,    ///< frusta of the best views: of the searched segment, or by utility
   ChosenView,
   Path,        ///< motion to the chosen view
   Sensor,      ///< the sensor where the last scan was taken
   DepthImage,  ///< last depth image, beside the scene
 };
-inline constexpr int kLayerCount = 18;
+inline constexpr int kLayerCount = 24;
 
 /// Name of a layer in files and on the command line, e.g. "contour-points".
 std::string_view layerName(Layer layer);
@@ -52,6 +58,13 @@ class LayerSet {
   std::array<bool, kLayerCount> shown_{};
 };
 
+/// What colours the candidates of the hierarchical planner (eq. 1).
+enum class UtilityFactor : std::uint8_t { Utility, Unknown, Occupied, Distance };
+/// `utility`, `unknown`, `occupied`, `distance`.
+std::string_view factorName(UtilityFactor factor);
+std::optional<UtilityFactor> factorNamed(std::string_view name);
+std::vector<std::string_view> factorNames();
+
 /// How layers are drawn.
 struct LayerStyle {
   double unknown_opacity = 0.15;   ///< of the unknown frontier, (0, 0.15]: what is behind must stay visible
@@ -63,6 +76,11 @@ struct LayerStyle {
   int slice_axis = 1;              ///< normal of the slice: 0 x, 1 y, 2 z
   std::optional<double>
       slice_at_m;  ///< its position along that axis, world, metres; empty = middle of the workspace
+  /// Nodes of the octree layer have edges of 2^level finest voxels, 0..8; empty = where tracing starts.
+  std::optional<int> octree_level;
+  std::optional<int> view_id;  ///< whose rays are drawn, >= 0; empty = the chosen view, else the best
+  int coarse_rays = 300;       ///< at most, evenly thinned, and their refined rays, 1..100000
+  UtilityFactor utility_factor = UtilityFactor::Utility;
   double truth_opacity = 1.0;    ///< (0, 1]; below 1 the true scene is a ghost
   double surface_opacity = 1.0;  ///< (0, 1]
   double label_px = 15.0;        ///< text in the scene, pixels
@@ -78,7 +96,8 @@ struct CameraView {
   double azimuth_rad = -1.0297442586766543;   ///< of the eye from +x about z; -59 deg, the robot is at -y
   double elevation_rad = 0.6806784082777885;  ///< above the horizon; 39 deg
   double fov_rad = 0.4363323129985824;        ///< vertical aperture; 25 deg
-  double zoom = 1.0;                          ///< 1: what must be seen fills the picture
+  bool object = false;  ///< the object's box must be seen instead of the workspace, if the step has one
+  double zoom = 1.0;    ///< 1: what must be seen fills the picture
   /// Space before the workspace (-y) that must be seen too, metres, 0..10; empty = 0.2 in a known scene, else
   /// 0.
   std::optional<double> front_m;

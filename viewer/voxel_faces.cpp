@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 namespace vantage {
 namespace {
@@ -160,6 +161,45 @@ FaceMesh extractFaces(const StateGrid& grid, VoxelState of, FaceRule rule, const
   const VoxelRange range = voxelsIn(grid.geometry(), clip_world);
   if (range.empty()) return {};
   return FaceExtractor(grid, of, rule, range).run();
+}
+
+FaceMesh facesOf(const GridGeometry& grid, const std::vector<std::size_t>& voxels) {
+  FaceMesh mesh;
+  std::unordered_map<std::uint64_t, std::uint32_t> corners;
+  const Eigen::Vector3d low = grid.origin_m - Eigen::Vector3d::Constant(grid.voxel_size_m / 2);
+  const auto corner = [&](const Eigen::Vector3i& at) {
+    const std::uint64_t key =
+        (static_cast<std::uint64_t>(at.z()) * (grid.size.y() + 1) + at.y()) * (grid.size.x() + 1) + at.x();
+    const auto [entry, is_new] = corners.try_emplace(key, static_cast<std::uint32_t>(mesh.corners.size()));
+    if (is_new) mesh.corners.push_back((low + grid.voxel_size_m * at.cast<double>()).cast<float>());
+    return entry->second;
+  };
+  for (const std::size_t index : voxels) {
+    const Eigen::Vector3i voxel = grid.voxel(index);
+    for (int side = 0; side < 6; ++side) {
+      Eigen::Vector3i neighbour = voxel;
+      neighbour[side / 2] += side % 2 ? 1 : -1;
+      if (grid.contains(neighbour) && std::ranges::binary_search(voxels, grid.index(neighbour))) continue;
+      auto& quad = mesh.quads.emplace_back();
+      for (int c = 0; c < 4; ++c)
+        quad[c] = corner(voxel + Eigen::Map<const Eigen::Vector3i>(kCorner[side][c]));
+    }
+  }
+  return mesh;
+}
+
+std::vector<std::array<std::uint32_t, 2>> edgesOf(const FaceMesh& faces) {
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  edges.reserve(4 * faces.quads.size());
+  for (const auto& quad : faces.quads) {
+    for (int c = 0; c < 4; ++c) {
+      const auto [low, high] = std::minmax(quad[c], quad[(c + 1) % 4]);
+      edges.push_back({low, high});
+    }
+  }
+  std::ranges::sort(edges);
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
 }
 
 }  // namespace vantage

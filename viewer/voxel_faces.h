@@ -25,4 +25,11 @@ enum class FaceRule {
 /// on the number of threads. Empty for an empty grid or box.
 FaceMesh extractFaces(const StateGrid& grid, VoxelState of, FaceRule rule, const Box& clip_world);
 
+/// Outer faces of a set of voxels: those toward voxels that are not in it. \param voxels
+/// GridGeometry::index(), ascending, each once
+FaceMesh facesOf(const GridGeometry& grid, const std::vector<std::size_t>& voxels);
+
+/// Every edge of the faces once, as pairs of corners.
+std::vector<std::array<std::uint32_t, 2>> edgesOf(const FaceMesh& faces);
+
 }  // namespace vantage

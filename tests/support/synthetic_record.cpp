@@ -68,10 +68,10 @@ RunHeader makeHeader() {
   header.camera.min_range_m = 0.3;
   header.volume = {{-0.6, -0.5, -0.05}, 0.01, {120, 100, 60}};
   header.workspace = Box(Eigen::Vector3d(-0.5, -0.4, 0.0), Eigen::Vector3d(0.5, 0.4, 0.45));
-  header.planner_config.segmentation.voxel_m = 0.015;
-  header.planner_config.segmentation.seed_m = 0.04;
-  header.planner_config.gain.reduction = 1;
-  header.planner_config.gain.gain_threshold = 100.0;
+  header.contour_config.segmentation.voxel_m = 0.015;
+  header.contour_config.segmentation.seed_m = 0.04;
+  header.contour_config.gain.reduction = 1;
+  header.contour_config.gain.gain_threshold = 100.0;
   header.truth = truthMesh();
   return header;
 }
@@ -84,6 +84,16 @@ MotionPlan reach(const Pose& start, const Pose& goal) {
   plan.waypoints = {start, goal};
   plan.length_m = (goal.translation() - start.translation()).norm();
   return plan;
+}
+
+/// Twelve poses on an arc at -y.
+std::vector<Pose> scanPoses() {
+  std::vector<Pose> poses;
+  for (int i = 0; i < 12; ++i) {
+    const double angle = -0.25 + 0.5 * i / 11;
+    poses.push_back(lookAt({std::sin(angle), -std::cos(angle), 0.6}, {0.0, 0.0, 0.08}));
+  }
+  return poses;
 }
 
 }  // namespace
@@ -108,15 +118,75 @@ SyntheticRun makeEmptyRun() {
   return run;
 }
 
+SyntheticOctreeRun makeSyntheticOctreeRun(CandidateGenerator generator, bool with_views) {
+  SyntheticOctreeRun run;
+  run.header = makeHeader();
+  run.header.planner = run.record.planner = "hierarchical";
+  OctreeHeader& octree = run.header.octree.emplace();
+  octree.object_box = Box(Eigen::Vector3d(-0.28, -0.14, 0.0), Eigen::Vector3d(0.26, 0.16, 0.22));
+  octree.map.voxel_size_m = 0.01;
+  octree.map.object_box = octree.object_box;
+  octree.planner.generator = generator;
+  octree.planner.sensor.min_range_m = 0.1;
+  octree.planner.sensor.max_range_m = 1.5;
+  octree.planner.sphere_radius_m = 0.45;
+  octree.planner.workspace_views = 150;
+  octree.planner.min_occupied = 50.0;
+  octree.planner.stop_gain = with_views ? 100.0 : 1e8;
+  run.octree = OccupancyOctree(OccupancyOctree::gridAround(run.header.volume.bounds(), 0.01),
+                               octree.object_box, octree.map.outside, octree.map.occupancy);
+  auto bricks = std::make_shared<std::vector<OctreeBrick>>();
+  auto last = std::make_shared<DepthFrame>();
+  for (const Pose& pose : scanPoses()) {
+    last->T_world_camera = pose;
+    last->depth = syntheticDepth(run.header.camera, pose);
+    run.octree.insert(last->depth, run.header.camera, pose);
+    run.record.scan.push_back({pose, -1});
+  }
+  run.record.depth = last;
+  for (std::uint32_t brick = 0; brick < run.octree.bricks().total(); ++brick) {
+    const BrickRange range = run.octree.bricks().range(brick);
+    bricks->push_back({brick, std::vector<float>((range.end - range.begin).prod())});
+    run.octree.readBrick(brick, bricks->back().log_odds);
+  }
+  run.record.changed_octree_bricks = bricks;
+  run.pyramid = StatePyramid(run.octree, StatePyramid::kMaxCoarseLevels);
+  run.tree = RayTree(octree.planner.sensor, 0.01, octree.planner.coarse_levels);
+  run.record.metrics.unknown_voxels = run.pyramid.finest().count(VoxelState::Unknown, run.header.workspace);
+  run.record.box = std::make_shared<BoxMetrics>(
+      BoxMetrics{run.pyramid.finest().count(VoxelState::Unknown, octree.object_box),
+                 run.pyramid.finest().count(VoxelState::Occupied, octree.object_box)});
+  const PlanUtilityInput input{.pyramid = run.pyramid,
+                               .tree = run.tree,
+                               .object_box = octree.object_box,
+                               .workspace = run.header.workspace,
+                               .recorded = {},
+                               .current = last->T_world_camera,
+                               .config = octree.planner,
+                               .seed = 1};
+  std::size_t asked = 0;  // the two best cannot be reached
+  const auto refuseTwo = [&](const Pose& goal) {
+    MotionPlan plan;
+    plan.verdict = asked++ < 2 ? Reachability::NoPath : Reachability::Reachable;
+    if (plan.verdict != Reachability::Reachable) return plan;
+    plan.straight = true;
+    plan.waypoints = {last->T_world_camera, goal};
+    plan.length_m = (goal.translation() - last->T_world_camera.translation()).norm();
+    return plan;
+  };
+  planUtility(run.record, input, refuseTwo, [](Stage) {}, {});
+  run.record.stage = Stage::Done;
+  return run;
+}
+
 SyntheticRun makeSyntheticRun(bool with_views) {
   SyntheticRun run = makeEmptyRun();
-  if (!with_views) run.header.planner_config.gain.gain_threshold = 1e9;
+  if (!with_views) run.header.contour_config.gain.gain_threshold = 1e9;
   StepRecord& record = run.record;
   BrickSet changed(run.volume.bricks().total());
   auto last = std::make_shared<DepthFrame>();
-  for (int i = 0; i < 12; ++i) {
-    const double angle = -0.25 + 0.5 * i / 11;
-    last->T_world_camera = lookAt({std::sin(angle), -std::cos(angle), 0.6}, {0.0, 0.0, 0.08});
+  for (const Pose& pose : scanPoses()) {
+    last->T_world_camera = pose;
     last->depth = syntheticDepth(run.header.camera, last->T_world_camera);
     changed.merge(fuseDepth(run.volume, last->depth, run.header.camera, last->T_world_camera, {}).changed);
     record.scan.push_back({last->T_world_camera, -1});
@@ -128,7 +198,7 @@ SyntheticRun makeSyntheticRun(bool with_views) {
   run.states = makeStateGrid(run.volume);
   record.metrics.unknown_voxels = run.states.count(VoxelState::Unknown, run.header.workspace);
   const PlanViewInput input{run.volume, run.states, run.header.camera, run.header.workspace,
-                            run.header.planner_config};
+                            run.header.contour_config};
   planView(
       record, input, [&](const Pose& goal) { return reach(last->T_world_camera, goal); }, [](Stage) {}, {});
   record.stage = Stage::Done;

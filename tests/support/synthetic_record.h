@@ -15,8 +15,23 @@ struct SyntheticRun {
   StateGrid states;
   StepRecord record;              ///< step 1, complete
   std::vector<TsdfBrick> bricks;  ///< of the first scan
-  SceneFrame frame() const { return {header, record, states, &header.truth}; }
+  SceneFrame frame() const { return {header, record, states, &header.truth, nullptr, nullptr}; }
 };
+
+/// The same scene and frames in the octree of the hierarchical planner: voxels of 1 cm, the object's box
+/// about ball and block, views on a sphere of 0.6 m or in the workspace.
+struct SyntheticOctreeRun {
+  RunHeader header;
+  OccupancyOctree octree;
+  StatePyramid pyramid;
+  RayTree tree;
+  StepRecord record;  ///< step 1, complete
+  SceneFrame frame() const { return {header, record, pyramid.finest(), &header.truth, &pyramid, &tree}; }
+};
+
+/// \param with_views false: no view sees enough, none is chosen.
+SyntheticOctreeRun makeSyntheticOctreeRun(CandidateGenerator generator = CandidateGenerator::Icosphere,
+                                          bool with_views = true);
 
 /// \param with_views false: the gain threshold is out of every view's reach, none is chosen.
 SyntheticRun makeSyntheticRun(bool with_views = true);

@@ -21,45 +21,108 @@ TEST(Captions, ThousandsAreSetApart) {
 TEST(Captions, SayWhyTheViewWasChosen) {
   const test::SyntheticRun run = test::makeSyntheticRun();
   ASSERT_TRUE(run.record.hasView());
-  const std::string text = viewFigures(run.frame());
+  const std::string text = viewFigures(run.frame(), {});
   EXPECT_THAT(text, HasSubstr("View " + std::to_string(run.record.search->chosen->id) + " gains"));
   EXPECT_THAT(text, HasSubstr("threshold of 100 rays"));
   const std::size_t chosen = run.record.search->chosen->search;
   EXPECT_THAT(text, HasSubstr("no. " + std::to_string(chosen + 1) + " (label "));
   EXPECT_THAT(text, HasSubstr(", saliency "));
   EXPECT_THAT(stepLine(run.frame()), HasSubstr("step 1"));
-  EXPECT_THAT(contourFigures(run.frame()),
+  EXPECT_THAT(contourFigures(run.frame(), {}),
               HasSubstr(grouped(run.record.contours->voxels.size()) + " contour voxel"));
-  EXPECT_THAT(scanFigures(run.frame()), HasSubstr("12 frames"));
+  EXPECT_THAT(scanFigures(run.frame(), {}), HasSubstr("12 frames"));
 }
 
 TEST(Captions, SayWhyNoneWasChosen) {
   const test::SyntheticRun run = test::makeSyntheticRun(false);
-  EXPECT_THAT(viewFigures(run.frame()), HasSubstr("No view was chosen"));
-  EXPECT_THAT(viewFigures(run.frame()), HasSubstr("0 above the threshold"));
+  EXPECT_THAT(viewFigures(run.frame(), {}), HasSubstr("No view was chosen"));
+  EXPECT_THAT(viewFigures(run.frame(), {}), HasSubstr("0 above the threshold"));
 }
 
 TEST(Captions, CountUnknownAsTheGridDoes) {
   const test::SyntheticRun run = test::makeSyntheticRun();
   const std::uint64_t unknown = run.states.count(VoxelState::Unknown, run.header.workspace);
   ASSERT_GT(unknown, 0u);
-  EXPECT_THAT(stateFigures(run.frame()), HasSubstr("Unknown: " + grouped(unknown) + " of "));
+  EXPECT_THAT(stateFigures(run.frame(), {}), HasSubstr("Unknown: " + grouped(unknown) + " of "));
 }
 
 TEST(Captions, StandardPlannerHasNoSegmentsToSpeakOf) {
   test::SyntheticRun run = test::makeSyntheticRun();
   run.header.planner = run.record.planner = "standard";
   run.record.saliency.reset();
-  EXPECT_THAT(segmentFigures(run.frame()), HasSubstr("does not use segments"));
-  EXPECT_THAT(viewFigures(run.frame()), HasSubstr("scored over the whole workspace. View "));
-  EXPECT_THAT(viewFigures(run.frame()), testing::Not(HasSubstr("tried first")));
+  EXPECT_THAT(segmentFigures(run.frame(), {}), HasSubstr("does not use segments"));
+  EXPECT_THAT(viewFigures(run.frame(), {}), HasSubstr("scored over the whole workspace. View "));
+  EXPECT_THAT(viewFigures(run.frame(), {}), testing::Not(HasSubstr("tried first")));
 }
 
 TEST(Captions, EmptyRunHasSentencesToo) {
   const test::SyntheticRun run = test::makeEmptyRun();
-  for (const auto figures : {scanFigures, stateFigures, contourFigures, segmentFigures, viewFigures}) {
-    EXPECT_NE(figures(run.frame()), "");
+  for (const auto figures : {scanFigures, stateFigures, contourFigures, segmentFigures, viewFigures,
+                             octreeFigures, rayFigures, utilityFigures}) {
+    EXPECT_NE(figures(run.frame(), {}), "");
   }
+}
+
+TEST(Captions, SayHowTheUtilityOfTheChosenViewCameAbout) {
+  const test::SyntheticOctreeRun run = test::makeSyntheticOctreeRun();
+  const UtilitySearch& search = *run.record.utilities;
+  const ViewUtility* chosen = chosenUtility(search);
+  ASSERT_NE(chosen, nullptr);
+  const std::string text = utilityFigures(run.frame(), {});
+  EXPECT_THAT(viewFigures(run.frame(), {}), testing::StartsWith(text + " Path: "));
+  EXPECT_THAT(text, HasSubstr("View " + std::to_string(chosen->id) + ": " +
+                              grouped(static_cast<std::uint64_t>(chosen->unknown)) + " unknown and " +
+                              grouped(static_cast<std::uint64_t>(chosen->occupied)) + " known rays in"));
+  EXPECT_THAT(text, HasSubstr(grouped(search.rejected_position) + " fell out by position"));
+  EXPECT_THAT(text, HasSubstr(grouped(search.rejected_registration) + " by registration"));
+  EXPECT_THAT(text, HasSubstr("2 better ones are unreachable"));
+  // The two best are unreachable, the third is chosen: the fourth would have been next.
+  EXPECT_THAT(text,
+              HasSubstr("Next best: view " + std::to_string(search.views[search.ranking.at(3)].id) + ", "));
+}
+
+TEST(Captions, SayThatNoViewSeesEnough) {
+  const test::SyntheticOctreeRun run = test::makeSyntheticOctreeRun(CandidateGenerator::Icosphere, false);
+  EXPECT_THAT(utilityFigures(run.frame(), {}), HasSubstr("No view was chosen: the best of the "));
+}
+
+TEST(Captions, OctreeNodesAreCountedAtTheDepthThatIsDrawn) {
+  const test::SyntheticOctreeRun run = test::makeSyntheticOctreeRun();
+  LayerStyle style;
+  style.octree_level = 3;
+  const Box& box = run.header.octree->object_box;
+  EXPECT_THAT(octreeFigures(run.frame(), style), HasSubstr("Depth 13 of the octree, nodes of 8 cm"));
+  EXPECT_THAT(octreeFigures(run.frame(), style),
+              HasSubstr(grouped(run.pyramid.level(3).count(VoxelState::Occupied, box)) + " occupied"));
+  EXPECT_THAT(octreeFigures(run.frame(), {}), HasSubstr("nodes of 4 cm"));  // where tracing starts, m = 2
+}
+
+TEST(Captions, RaysAreThoseOfTheStyleView) {
+  const test::SyntheticOctreeRun run = test::makeSyntheticOctreeRun();
+  LayerStyle style;
+  style.view_id = 5;
+  EXPECT_THAT(rayFigures(run.frame(), style), testing::StartsWith("View 5: "));
+  const ViewUtility& chosen = *chosenUtility(*run.record.utilities);
+  EXPECT_THAT(rayFigures(run.frame(), {}),
+              HasSubstr("Counted: " + grouped(chosen.rays.unknown) + " unknown and " +
+                        grouped(chosen.rays.occupied) + " occupied"));
+}
+
+TEST(Captions, ProductsOfTheOtherPlannerDoNotExist) {
+  const test::SyntheticOctreeRun octree = test::makeSyntheticOctreeRun();
+  EXPECT_THAT(contourFigures(octree.frame(), {}), HasSubstr("has no contours"));
+  EXPECT_THAT(segmentFigures(octree.frame(), {}), HasSubstr("has no segments"));
+  const test::SyntheticRun contour = test::makeEmptyRun();
+  for (const auto figures : {octreeFigures, rayFigures, utilityFigures})
+    EXPECT_THAT(figures(contour.frame(), {}), HasSubstr("does not exist"));
+}
+
+TEST(Captions, LengthsHaveTheUnitThatSuitsThem) {
+  EXPECT_EQ(lengthText(0.01), "1 cm");
+  EXPECT_EQ(lengthText(0.08), "8 cm");
+  EXPECT_EQ(lengthText(3.0 / 512.0), "5.9 mm");
+  EXPECT_EQ(lengthText(0.025), "2.5 cm");
+  EXPECT_EQ(lengthText(1.28), "1.3 m");
 }
 
 TEST(Color, MapsRiseInLightnessFromEndToEnd) {

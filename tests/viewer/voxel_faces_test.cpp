@@ -122,5 +122,34 @@ TEST(VoxelFaces, AgreesWithPlainCountingOnRandomGrids) {
   }
 }
 
+TEST(FacesOf, TouchingVoxelsShareCornersAndHaveNoFaceBetweenThem) {
+  const GridGeometry grid{{0.0, 0.0, 0.0}, 0.1, {4, 4, 4}};
+  const std::vector<std::size_t> voxels = {grid.index(1, 1, 1), grid.index(2, 1, 1)};
+  const FaceMesh mesh = facesOf(grid, voxels);
+  EXPECT_EQ(mesh.quads.size(), 10u);
+  EXPECT_EQ(mesh.corners.size(), 12u);
+  EXPECT_EQ(edgesOf(mesh).size(), 20u);
+  EXPECT_TRUE(facesOf(grid, {}).empty());
+}
+
+TEST(FacesOf, AgreesWithExtractedFacesOnRandomGrids) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 20; ++round) {
+    StateGrid grid = gridOf({6, 5, 7}, VoxelState::Free);
+    std::vector<std::size_t> voxels;
+    for (std::size_t i = 0; i < grid.geometry().count(); ++i) {
+      if (random() % 3) continue;
+      grid.set(grid.geometry().voxel(i), VoxelState::Unknown);
+      voxels.push_back(i);
+    }
+    ASSERT_FALSE(voxels.empty());
+    const FaceMesh expected = extractFaces(grid, VoxelState::Unknown, FaceRule::TowardOther, everywhere());
+    const FaceMesh mesh = facesOf(grid.geometry(), voxels);
+    EXPECT_EQ(mesh.quads.size(), expected.quads.size());
+    EXPECT_EQ(mesh.corners.size(), expected.corners.size());
+    EXPECT_EQ(edgesOf(mesh).size(), edgesOf(expected).size());
+  }
+}
+
 }  // namespace
 }  // namespace vantage

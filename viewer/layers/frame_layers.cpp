@@ -3,21 +3,40 @@
 #include "viewer/layers/shapes.h"
 
 namespace vantage {
+namespace {
+
+bool boxesAgree(const Box& a, const Box& b) {
+  constexpr double kSame_m = 1e-3;
+  return !a.isEmpty() && !b.isEmpty() && (a.min() - b.min()).norm() < kSame_m &&
+         (a.max() - b.max()).norm() < kSame_m;
+}
+
+}  // namespace
 
 LayerContent workspaceLayer(const SceneFrame& frame, const LayerStyle& style) {
   LayerContent content;
   const Box& box = frame.header.workspace;
   if (box.isEmpty()) return content;
   LineSet edges;
-  for (int c = 0; c < 8; ++c) {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (c & (1 << axis)) continue;
-      edges.add(box.corner(static_cast<Box::CornerType>(c)),
-                box.corner(static_cast<Box::CornerType>(c | (1 << axis))));
-    }
-  }
+  addBox(edges, box);
   content.props.push_back(lineActor(edges, palette::kRule, 1.2 * style.line_scale));
-  content.legend.push_back({LegendEntry::Mark::Line, palette::kRule, 1.0, "workspace"});
+  const bool objects_too = onOctree(frame) && boxesAgree(box, frame.header.octree->object_box);
+  content.legend.push_back({LegendEntry::Mark::Line, palette::kRule, 1.0,
+                            objects_too ? "workspace, also the object's box" : "workspace"});
+  return content;
+}
+
+LayerContent objectBoxLayer(const SceneFrame& frame, const LayerStyle& style) {
+  LayerContent content;
+  if (!onOctree(frame)) return content;
+  const Box& box = frame.header.octree->object_box;
+  if (box.isEmpty() || boxesAgree(box, frame.header.workspace))
+    return content;  // the workspace's frame shows it
+  LineSet edges;
+  addBox(edges, box);
+  content.props.push_back(lineActor(edges, palette::kObjectBox, 1.6 * style.line_scale));
+  content.legend.push_back(
+      {LegendEntry::Mark::Line, palette::kObjectBox, 1.0, "object's box: what is to be seen"});
   return content;
 }
 

@@ -11,7 +11,16 @@ namespace vantage {
 
 /// What a colour or mark stands for.
 struct LegendEntry {
-  enum class Mark { Fill, Line, Dashed, Dot, Cross };
+  enum class Mark {
+    Fill,
+    Line,
+    Dashed,
+    Dot,
+    Cross,
+    Crossed,  ///< the fill with a cross on it
+    Striped,  ///< the fill with stripes
+    Diamond   ///< the fill with a diamond on it
+  };
   Mark mark = Mark::Fill;
   Rgb color;
   double opacity = 1.0;

@@ -103,7 +103,22 @@ void LineSet::addCircle(const Eigen::Vector3d& center, double radius_m, const Ei
   for (int i = 0; i < kPieces; ++i) add(at(i), at(i + 1));
 }
 
-vtkSmartPointer<vtkActor> lineActor(const LineSet& lines, Rgb color, double width_px) {
+void addBox(LineSet& lines, const Box& box) {
+  for (int c = 0; c < 8; ++c) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (c & (1 << axis)) continue;
+      lines.add(box.corner(static_cast<Box::CornerType>(c)),
+                box.corner(static_cast<Box::CornerType>(c | (1 << axis))));
+    }
+  }
+}
+
+void addEdges(LineSet& lines, const FaceMesh& faces) {
+  for (const auto& [a, b] : edgesOf(faces))
+    lines.add(faces.corners[a].cast<double>(), faces.corners[b].cast<double>());
+}
+
+vtkSmartPointer<vtkActor> lineActor(const LineSet& lines, Rgb color, double width_px, double opacity) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> cells;
   for (const auto& [a, b] : lines.pieces) {
@@ -120,6 +135,7 @@ vtkSmartPointer<vtkActor> lineActor(const LineSet& lines, Rgb color, double widt
   auto actor = makeActor(data, color);
   actor->GetProperty()->LightingOff();
   actor->GetProperty()->SetLineWidth(static_cast<float>(width_px));
+  actor->GetProperty()->SetOpacity(opacity);
   return actor;
 }
 
@@ -220,6 +236,21 @@ vtkSmartPointer<vtkActor> triangleActor(const std::vector<Eigen::Vector3f>& poin
   actor->GetProperty()->SetOpacity(opacity);
   actor->GetProperty()->SetAmbient(0.32);
   actor->GetProperty()->SetDiffuse(0.80);
+  return actor;
+}
+
+vtkSmartPointer<vtkActor> flatTriangleActor(const std::vector<Eigen::Vector3f>& points,
+                                            const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                                            const std::vector<Rgb>& colors, FaceSide side, double opacity) {
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(toPoints(points));
+  data->SetPolys(toCells(triangles));
+  data->GetCellData()->SetScalars(toColors(colors.size(), [&](std::size_t i) { return colors[i].bytes(); }));
+  auto actor = makeActor(data, palette::kInk);
+  actor->GetProperty()->LightingOff();
+  actor->GetProperty()->SetOpacity(opacity);
+  actor->GetProperty()->SetBackfaceCulling(side == FaceSide::TowardEye);
+  actor->GetProperty()->SetFrontfaceCulling(side == FaceSide::AwayFromEye);
   return actor;
 }
 

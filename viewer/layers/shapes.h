@@ -32,8 +32,14 @@ struct LineSet {
   void addCircle(const Eigen::Vector3d& center, double radius_m, const Eigen::Vector3d& axis);
 };
 
+/// The twelve edges of a box.
+void addBox(LineSet& lines, const Box& box);
+
+/// Every edge of the faces once.
+void addEdges(LineSet& lines, const FaceMesh& faces);
+
 /// Unlit lines.
-vtkSmartPointer<vtkActor> lineActor(const LineSet& lines, Rgb color, double width_px);
+vtkSmartPointer<vtkActor> lineActor(const LineSet& lines, Rgb color, double width_px, double opacity = 1.0);
 
 /// Unlit round points; one colour each, or `color` for all if `colors` is empty.
 vtkSmartPointer<vtkActor> dotActor(const std::vector<Eigen::Vector3d>& points, const std::vector<Rgb>& colors,
@@ -54,6 +60,15 @@ vtkSmartPointer<vtkActor> triangleActor(const std::vector<Eigen::Vector3f>& poin
                                         const std::vector<std::array<std::uint32_t, 3>>& triangles,
                                         const std::vector<std::array<std::uint8_t, 3>>& colors, Rgb color,
                                         double opacity);
+
+/// Which way a face must look to be drawn.
+enum class FaceSide { Both, TowardEye, AwayFromEye };
+
+/// Unlit triangles in the exact colours of a scale, one a triangle; counter-clockwise seen from their
+/// outside.
+vtkSmartPointer<vtkActor> flatTriangleActor(const std::vector<Eigen::Vector3f>& points,
+                                            const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                                            const std::vector<Rgb>& colors, FaceSide side, double opacity);
 
 /// Text that faces the eye and is hidden by what stands before it.
 vtkSmartPointer<vtkProp> labelProp(const Eigen::Vector3d& at, const std::string& utf8, double size_px,

@@ -19,16 +19,15 @@ struct GainRange {
   double at(double gain) const { return (gain - low) / std::max(1e-9, high - low); }
 };
 
-/// From the threshold to a round number above the best gain that can be had.
-GainRange gainRange(const SceneFrame& frame, const std::vector<RankedPosition>& ranked) {
-  GainRange range{frame.header.planner_config.gain.gain_threshold, 0.0};
-  double best = range.low;
+/// From `low` to a round number above the best gain that can be had.
+GainRange gainRange(double low, const std::vector<RankedPosition>& ranked) {
+  double best = low;
   for (const RankedPosition& view : ranked) {
     if (!view.unreachable()) best = std::max(best, view.gain);
   }
-  const double unit = std::pow(10.0, std::floor(std::log10(std::max(1.0, best))) - 1.0) * 5.0;
-  range.high = std::max(range.low + 1.0, std::ceil(best / unit) * unit);
-  return range;
+  if (best <= low) return {low, low + 1.0};
+  const double unit = std::pow(10.0, std::floor(std::log10(best)) - 1.0) * 5.0;
+  return {low, std::ceil(best / unit - 1e-9) * unit};
 }
 
 void addCross(LineSet& lines, const Pose& pose, double half_m) {
@@ -46,22 +45,33 @@ void addDashedFrustum(LineSet& lines, const PinholeCamera& camera, const Pose& p
   }
 }
 
-/// Distance from the eye to the contour point that the view looks at.
-double lookDistance(const SceneFrame& frame, const ChosenView& chosen) {
+/// Distance from the eye to the contour point that the view looks at; to the middle of the object's box.
+double lookDistance(const SceneFrame& frame) {
   const auto& contours = frame.record.contours;
-  if (!contours || chosen.contour_point >= contours->points.size()) return 0.8;
+  const ChosenView& chosen = *frame.record.chosen();
+  if (frame.record.utilities && frame.header.octree)
+    return std::max(0.05,
+                    (frame.header.octree->object_box.center() - chosen.T_world_camera.translation()).norm());
+  const auto& search = frame.record.search;
+  if (!contours || !search || search->chosen->contour_point >= contours->points.size()) return 0.8;
   return std::max(
-      0.05, (contours->points[chosen.contour_point].position_m - chosen.T_world_camera.translation()).norm());
+      0.05, (contours->points[search->chosen->contour_point].position_m - chosen.T_world_camera.translation())
+                .norm());
 }
 
 }  // namespace
 
 LayerContent candidatesLayer(const SceneFrame& frame, const LayerStyle& style) {
   LayerContent content;
-  if (!frame.record.positions || frame.record.positions->empty()) return content;
   std::vector<Eigen::Vector3d> eyes;
-  for (const ViewPosition& position : *frame.record.positions)
-    eyes.push_back(position.T_world_camera.translation());
+  if (frame.record.positions) {
+    for (const ViewPosition& position : *frame.record.positions)
+      eyes.push_back(position.T_world_camera.translation());
+  } else if (frame.record.utilities) {
+    for (const ViewUtility& view : frame.record.utilities->views)
+      eyes.push_back(view.T_world_camera.translation());
+  }
+  if (eyes.empty()) return content;
   content.props.push_back(dotActor(eyes, {}, palette::kCandidate, 4.0 * style.line_scale));
   content.legend.push_back({Mark::Dot, palette::kCandidate, 1.0, "positions of all candidate views"});
   return content;
@@ -70,33 +80,38 @@ LayerContent candidatesLayer(const SceneFrame& frame, const LayerStyle& style) {
 LayerContent rankedViewsLayer(const SceneFrame& frame, const LayerStyle& style) {
   LayerContent content;
   const SegmentSearch* search = shownSearch(frame.record);
-  if (!search) return content;
-  const std::vector<RankedPosition> ranked = rankedPositions(frame, *search);
-  const GainRange range = gainRange(frame, ranked);
+  const UtilitySearch* utilities = frame.record.utilities.get();
+  if (!search && !utilities) return content;
+  const std::vector<RankedPosition> ranked =
+      search ? rankedPositions(frame, *search) : rankedViews(*utilities);
+  const GainRange range = gainRange(search ? frame.header.contour_config.gain.gain_threshold : 0.0, ranked);
+  const PinholeCamera camera = viewCamera(frame);
   LineSet colored, barred;
   int shown = 0, unreachable = 0;
   for (const RankedPosition& view : ranked) {
     if (view.unreachable()) {
       // They stand where no sensor goes: they don't widen the picture.
       if (unreachable++ >= style.unreachable_views) continue;
-      addDashedFrustum(barred, frame.header.camera, view.T_world_camera, style.frustum_length_m);
+      addDashedFrustum(barred, camera, view.T_world_camera, style.frustum_length_m);
       addCross(barred, view.T_world_camera, 0.014);
     } else if (shown++ < style.ranked_views) {
       const std::size_t before = colored.pieces.size();
-      const FrustumCorners corners =
-          frustumCorners(frame.header.camera, view.T_world_camera, style.frustum_length_m);
+      const FrustumCorners corners = frustumCorners(camera, view.T_world_camera, style.frustum_length_m);
       content.must_see.push_back(corners.apex);
       content.must_see.insert(content.must_see.end(), corners.image.begin(), corners.image.end());
-      addFrustum(colored, frame.header.camera, view.T_world_camera, style.frustum_length_m);
+      addFrustum(colored, camera, view.T_world_camera, style.frustum_length_m);
       colored.colors.insert(colored.colors.end(), colored.pieces.size() - before,
                             colorAt(ColorMap::Viridis, range.at(view.gain)));
     }
   }
   if (!colored.pieces.empty()) {
     content.props.push_back(lineActor(colored, palette::kInk, 2.0 * style.line_scale));
-    content.scale = ColorScale{ColorMap::Viridis, "gain of the view, rays", range.low, range.high, false};
+    content.scale = ColorScale{ColorMap::Viridis,
+                               search ? "gain of the view, rays" : "utility: unknown share × distance factor",
+                               range.low, range.high, false};
     content.legend.push_back(
-        {Mark::Line, colorAt(ColorMap::Viridis, 0.5), 1.0, "best positions above the threshold"});
+        {Mark::Line, colorAt(ColorMap::Viridis, 0.5), 1.0,
+         search ? "best positions above the threshold" : "views of the highest utility"});
   }
   if (!barred.pieces.empty()) {
     content.props.push_back(lineActor(barred, palette::kUnreachable, 1.2 * style.line_scale));
@@ -108,10 +123,11 @@ LayerContent rankedViewsLayer(const SceneFrame& frame, const LayerStyle& style) 
 LayerContent chosenViewLayer(const SceneFrame& frame, const LayerStyle& style) {
   LayerContent content;
   if (!frame.record.hasView()) return content;
-  const ChosenView& chosen = *frame.record.search->chosen;
-  const double distance = lookDistance(frame, chosen);
+  const ChosenView& chosen = *frame.record.chosen();
+  const double distance = lookDistance(frame);
+  const PinholeCamera camera = viewCamera(frame);
   LineSet frustum;
-  addFrustum(frustum, frame.header.camera, chosen.T_world_camera, std::min(distance, 0.30));
+  addFrustum(frustum, camera, chosen.T_world_camera, std::min(distance, 0.30));
   content.props.push_back(lineActor(frustum, palette::kChosen, 3.5 * style.line_scale));
   LineSet axis;
   axis.addDashed(chosen.T_world_camera.translation(),
@@ -119,12 +135,13 @@ LayerContent chosenViewLayer(const SceneFrame& frame, const LayerStyle& style) {
   content.props.push_back(lineActor(axis, palette::kChosen, 2.0 * style.line_scale));
   content.props.push_back(dotActor({chosen.T_world_camera * Eigen::Vector3d(0.0, 0.0, distance)}, {},
                                    palette::kChosen, 11.0 * style.line_scale));
-  const FrustumCorners corners =
-      frustumCorners(frame.header.camera, chosen.T_world_camera, std::min(distance, 0.30));
+  const FrustumCorners corners = frustumCorners(camera, chosen.T_world_camera, std::min(distance, 0.30));
   content.must_see.assign(corners.image.begin(), corners.image.end());
   content.must_see.push_back(corners.apex);
   content.legend.push_back({Mark::Line, palette::kChosen, 1.0, "chosen view"});
-  content.legend.push_back({Mark::Dashed, palette::kChosen, 1.0, "its optical axis to the contour point"});
+  content.legend.push_back(
+      {Mark::Dashed, palette::kChosen, 1.0,
+       frame.record.utilities ? "its optical axis" : "its optical axis to the contour point"});
 
   const SegmentSearch* search = shownSearch(frame.record);
   if (search && search->sphere.radius > 0.0) {
@@ -142,7 +159,7 @@ LayerContent chosenViewLayer(const SceneFrame& frame, const LayerStyle& style) {
 LayerContent pathLayer(const SceneFrame& frame, const LayerStyle&) {
   LayerContent content;
   if (!frame.record.hasView()) return content;
-  const MotionPlan& plan = frame.record.search->chosen->path;
+  const MotionPlan& plan = frame.record.chosen()->path;
   if (plan.waypoints.size() < 2) return content;
   std::vector<Eigen::Vector3d> line;
   for (const Pose& pose : plan.waypoints) {

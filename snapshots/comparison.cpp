@@ -1,0 +1,135 @@
+#include "snapshots/comparison.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <set>
+
+#include "core/gpu/egl_context.h"
+#include "io/error.h"
+#include "snapshots/contact_sheet.h"
+#include "snapshots/snapshot.h"
+#include "snapshots/step_maps.h"
+
+namespace vantage {
+namespace {
+
+/// Number under which the map after the last scan stands in the list of rows: after all steps of both runs.
+constexpr int kEndRow = 1 << 30;
+
+/// One of the two runs while the sheet is drawn.
+class ComparedRun {
+ public:
+  explicit ComparedRun(const std::filesystem::path& path) : path_(path), reader_(path) {}
+
+  const RunHeader& header() const { return reader_.header(); }
+  std::string name() const { return path_.stem().string(); }
+  const std::filesystem::path& path() const { return path_; }
+
+  std::vector<int> rows() const {
+    std::vector<int> rows = reader_.steps();
+    if (reader_.hasClosing()) rows.push_back(kEndRow);
+    return rows;
+  }
+  bool has(int row) const {
+    const std::vector<int> all = rows();
+    return std::ranges::find(all, row) != all.end();
+  }
+  /// The frame of a row that the run has; valid until the next call.
+  SceneFrame frame(int row) {
+    record_ = row == kEndRow ? reader_.closing(RunDetail::NoVolume) : reader_.step(row, RunDetail::NoVolume);
+    return maps_.at(record_);
+  }
+
+ private:
+  std::filesystem::path path_;
+  RunReader reader_;
+  StepMaps maps_{reader_};
+  StepRecord record_;
+};
+
+using Pair = std::array<std::unique_ptr<ComparedRun>, 2>;
+
+void requireOneScene(const ComparedRun& a, const ComparedRun& b) {
+  const RunHeader &first = a.header(), &second = b.header();
+  if (first.input != second.input || first.truth.vertices != second.truth.vertices ||
+      first.truth.triangles != second.truth.triangles)
+    throw InputError(b.path().string(), "is about '" + second.input + "', but " + a.path().string() +
+                                            " about '" + first.input + "'; compare runs of one scene");
+}
+
+std::vector<int> rowsOf(const Pair& runs, const ComparisonRequest& request) {
+  std::set<int> rows;
+  for (const auto& run : runs) {
+    for (const int row : run->rows()) rows.insert(row);
+  }
+  if (!request.step) return {rows.begin(), rows.end()};
+  const int wanted = *request.step == SnapshotRequest::kEnd ? kEndRow : *request.step;
+  if (!rows.contains(wanted))
+    throw InputError("step " + (wanted == kEndRow ? std::string("end") : std::to_string(wanted)),
+                     "neither of the runs has it");
+  return {wanted};
+}
+
+/// Per recipe a column of each run, under the recipe's title and the run's planner.
+std::vector<ContactSheet::Column> columnsOf(const Pair& runs, const ComparisonRequest& request) {
+  const std::vector<std::string> names =
+      request.recipes.empty() ? std::vector<std::string>{"states", "views"} : request.recipes;
+  std::vector<ContactSheet::Column> columns;
+  for (const std::string& name : names) {
+    Recipe recipe = recipeFrom(name);
+    for (const std::string& assignment : request.style) setStyle(recipe.view.style, assignment);
+    for (const auto& run : runs)
+      columns.push_back({recipe.title + ": " + run->name() + ", " + run->header().planner, recipe});
+  }
+  return columns;
+}
+
+std::filesystem::path pagePath(const std::filesystem::path& output, const Pair& runs, std::size_t page) {
+  std::filesystem::path path = output;
+  if (path.extension() != ".png") path /= runs[0]->name() + "-" + runs[1]->name() + ".png";
+  if (page > 1) path.replace_filename(path.stem().string() + "-" + std::to_string(page) + ".png");
+  return path;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> takeComparison(const std::filesystem::path& run_a,
+                                                  const std::filesystem::path& run_b,
+                                                  const ComparisonRequest& request,
+                                                  const RunControl& control) {
+  if (request.output.empty()) throw InputError("output", "no file or folder is named; give one");
+  Pair runs = {std::make_unique<ComparedRun>(run_a), std::make_unique<ComparedRun>(run_b)};
+  requireOneScene(*runs[0], *runs[1]);
+  const std::vector<int> rows = rowsOf(runs, request);
+  const std::vector<ContactSheet::Column> columns = columnsOf(runs, request);
+  if (rows.empty())
+    throw InputError(run_a.string(), "the runs have no finished step yet; explore further first");
+  EglContext context;
+  OffscreenRenderer renderer(context);
+  Scene scene;
+  const std::string title = std::filesystem::path(runs[0]->header().input).stem().string() + "  ·  " +
+                            runs[0]->name() + " and " + runs[1]->name() + " side by side";
+  std::vector<std::filesystem::path> written;
+  for (std::size_t first = 0; first < rows.size(); first += ContactSheet::kMostRows) {
+    const std::size_t end = std::min(rows.size(), first + ContactSheet::kMostRows);
+    ContactSheet sheet(title, columns);
+    for (std::size_t r = first; r < end; ++r) {
+      sheet.beginRow(rows[r] == kEndRow ? "end" : std::to_string(rows[r]));
+      for (std::size_t n = 0; n < runs.size(); ++n) {
+        control.check();
+        control.report("pictures", r * runs.size() + n, rows.size() * runs.size());
+        if (!runs[n]->has(rows[r])) continue;
+        const SceneFrame frame = runs[n]->frame(rows[r]);
+        scene.setFrame(frame);
+        for (std::size_t c = n; c < columns.size(); c += runs.size())
+          sheet.setTile(c, scene, renderer, frame);
+      }
+    }
+    written.push_back(pagePath(request.output, runs, written.size() + 1));
+    writePng(sheet.draw(renderer), written.back());
+  }
+  return written;
+}
+
+}  // namespace vantage

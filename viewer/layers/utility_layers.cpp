@@ -1,0 +1,275 @@
+// The factors of eq. 1 per candidate: as faces of the view sphere, or as frusta where candidates lie
+// anywhere.
+#include <vtkActor.h>
+#include <vtkProperty.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "core/geometry/icosphere.h"
+#include "viewer/layers/layer.h"
+#include "viewer/layers/shapes.h"
+
+namespace vantage {
+namespace {
+
+using Mark = LegendEntry::Mark;
+
+/// Why a candidate has no colour.
+enum class Fallen { No, Position, Registration, Path };
+
+Fallen fallenOf(const ViewUtility& view) {
+  if (view.rejection == ViewRejection::Position) return Fallen::Position;
+  if (view.rejection == ViewRejection::Registration) return Fallen::Registration;
+  return isUnreachable(view.reachability) ? Fallen::Path : Fallen::No;
+}
+
+Rgb colorOf(Fallen fallen) {
+  return fallen == Fallen::Position       ? palette::kRejectedPosition
+         : fallen == Fallen::Registration ? palette::kRejectedRegistration
+                                          : palette::kRejectedPath;
+}
+
+double factorOf(const ViewUtility& view, UtilityFactor factor) {
+  switch (factor) {
+    case UtilityFactor::Unknown:
+      return view.unknown;
+    case UtilityFactor::Occupied:
+      return view.occupied;
+    case UtilityFactor::Distance:
+      return view.distance;
+    case UtilityFactor::Utility:
+      break;
+  }
+  return view.utility;
+}
+
+/// Scale over the survivors of the cascade: from 0 to a round number above the largest.
+ColorScale scaleOf(const SceneFrame& frame, UtilityFactor factor) {
+  const std::string unit =
+      frame.header.octree && frame.header.octree->planner.count == GainCount::Voxels ? "voxels" : "rays";
+  ColorScale scale;
+  double most = 0.0;
+  for (const ViewUtility& view : frame.record.utilities->views)
+    if (fallenOf(view) == Fallen::No) most = std::max(most, factorOf(view, factor));
+  const double step = most > 0.0 ? std::pow(10.0, std::floor(std::log10(most)) - 1.0) * 5.0 : 1.0;
+  scale.high = most > 0.0 ? std::ceil(most / step - 1e-9) * step : 1.0;
+  switch (factor) {
+    case UtilityFactor::Unknown:
+      scale.title = "unknown in view, " + unit;
+      break;
+    case UtilityFactor::Occupied:
+      scale.title = "known surface in view, " + unit;
+      break;
+    case UtilityFactor::Distance:
+      scale.title = "distance factor, 1 = no motion";
+      break;
+    case UtilityFactor::Utility:
+      scale.title = "utility: unknown share × distance factor";
+      break;
+  }
+  return scale;
+}
+
+/// Triangles with one colour each.
+struct Patches {
+  std::vector<Eigen::Vector3f> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Rgb> colors;
+
+  void add(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, Rgb color) {
+    const auto first = static_cast<std::uint32_t>(points.size());
+    for (const Eigen::Vector3d& p : {a, b, c}) points.push_back(p.cast<float>());
+    triangles.push_back({first, first + 1, first + 2});
+    colors.push_back(color);
+  }
+  /// A straight mark of some width in the plane with that normal.
+  void addStroke(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Eigen::Vector3d& normal,
+                 double width_m, Rgb color) {
+    const Eigen::Vector3d side = normal.cross(to - from).normalized() * width_m / 2;
+    add(from - side, to - side, to + side, color);
+    add(from - side, to + side, from + side, color);
+  }
+};
+
+/// A face of the view sphere.
+struct SphereFace {
+  std::array<Eigen::Vector3d, 3> corners;  ///< counter-clockwise seen from outside
+  Eigen::Vector3d middle, normal;
+
+  SphereFace shrunk(double share) const {
+    SphereFace small = *this;
+    for (Eigen::Vector3d& corner : small.corners) corner = middle + share * (corner - middle);
+    return small;
+  }
+  double size() const { return (corners[0] - middle).norm(); }
+};
+
+SphereFace faceOf(const Icosphere& sphere, std::size_t face, const Eigen::Vector3d& center, double radius_m) {
+  SphereFace out;
+  for (int c = 0; c < 3; ++c) out.corners[c] = center + radius_m * sphere.vertices[sphere.faces[face][c]];
+  out.middle = (out.corners[0] + out.corners[1] + out.corners[2]) / 3.0;
+  out.normal = (out.middle - center).normalized();
+  return out;
+}
+
+/// Reasons differ by mark, not by colour alone: a cross, stripes, a diamond.
+void addReason(Patches& marks, const SphereFace& face, Fallen fallen) {
+  constexpr Rgb kMark = rgb(70, 72, 78);
+  const double size = face.size(), width = 0.08 * size;
+  const Eigen::Vector3d u = (face.corners[0] - face.middle).normalized(), v = face.normal.cross(u);
+  const auto at = [&](double x, double y) { return Eigen::Vector3d(face.middle + size * (x * u + y * v)); };
+  if (fallen == Fallen::Position) {
+    marks.addStroke(at(-0.18, -0.18), at(0.18, 0.18), face.normal, width, kMark);
+    marks.addStroke(at(-0.18, 0.18), at(0.18, -0.18), face.normal, width, kMark);
+  } else if (fallen == Fallen::Registration) {
+    for (const double x : {-0.24, 0.0, 0.24})
+      marks.addStroke(at(x, -0.2), at(x, 0.2), face.normal, width, rgb(150, 152, 156));
+  } else if (fallen == Fallen::Path) {
+    marks.add(at(-0.2, 0.0), at(0.0, -0.2), at(0.2, 0.0), kMark);
+    marks.add(at(-0.2, 0.0), at(0.2, 0.0), at(0.0, 0.2), kMark);
+  }
+}
+
+void addReasonLegend(LayerContent& content, Fallen fallen) {
+  switch (fallen) {
+    case Fallen::Position:
+      content.legend.push_back(
+          {Mark::Crossed, colorOf(fallen), 1.0, "rejected: the sensor does not fit there"});
+      break;
+    case Fallen::Registration:
+      content.legend.push_back(
+          {Mark::Striped, colorOf(fallen), 1.0, "rejected: too little known surface in view"});
+      break;
+    case Fallen::Path:
+      content.legend.push_back({Mark::Diamond, colorOf(fallen), 1.0, "better, but cannot be reached"});
+      break;
+    case Fallen::No:
+      break;
+  }
+}
+
+void addReasonLegends(LayerContent& content, const UtilitySearch& search) {
+  for (const Fallen fallen : {Fallen::Position, Fallen::Registration, Fallen::Path}) {
+    if (std::ranges::any_of(search.views, [&](const ViewUtility& v) { return fallenOf(v) == fallen; }))
+      addReasonLegend(content, fallen);
+  }
+}
+
+bool onSphere(const SceneFrame& frame) {
+  return frame.header.octree && frame.header.octree->planner.generator == CandidateGenerator::Icosphere;
+}
+
+/// The far half in full, seen from inside; of the near half small patches, so that the scene shows between
+/// them.
+void addSphere(LayerContent& content, const SceneFrame& frame, const LayerStyle& style) {
+  constexpr double kFar = 0.90, kNear = 0.34;
+  const OctreeHeader& octree = *frame.header.octree;
+  const UtilitySearch& search = *frame.record.utilities;
+  const Icosphere sphere = makeIcosphere(octree.planner.icosphere_subdivisions);
+  const Eigen::Vector3d center = octree.object_box.center();
+  const double radius_m = octree.planner.sphere_radius_m;
+  Patches far, near, marks;
+  for (const ViewUtility& view : search.views) {
+    if (view.frame >= 0 || view.id >= sphere.faces.size()) continue;
+    const Fallen fallen = fallenOf(view);
+    const Rgb color =
+        fallen == Fallen::No
+            ? colorAt(ColorMap::Viridis, factorOf(view, style.utility_factor) / content.scale->high)
+            : colorOf(fallen);
+    const SphereFace face = faceOf(sphere, view.id, center, radius_m);
+    const SphereFace large = face.shrunk(kFar), small = face.shrunk(kNear);
+    far.add(large.corners[0], large.corners[1], large.corners[2], color);
+    if (fallen == Fallen::No) near.add(small.corners[0], small.corners[1], small.corners[2], color);
+    SphereFace lifted = large;  // seen from inside: the marks lie before the faces
+    lifted.middle -= 0.004 * radius_m * face.normal;
+    addReason(marks, lifted, fallen);
+    for (const Eigen::Vector3d& corner : face.corners) content.must_see.push_back(corner);
+  }
+  if (far.triangles.empty()) return;
+  content.props.push_back(
+      flatTriangleActor(far.points, far.triangles, far.colors, FaceSide::AwayFromEye, 1.0));
+  if (!near.triangles.empty()) {
+    content.legend.push_back({Mark::Fill, colorAt(ColorMap::Viridis, 0.5), 1.0,
+                              "candidate view: a face of the far side, a small triangle of the near side"});
+    content.props.push_back(
+        flatTriangleActor(near.points, near.triangles, near.colors, FaceSide::TowardEye, 1.0));
+  }
+  if (!marks.triangles.empty())
+    content.props.push_back(
+        flatTriangleActor(marks.points, marks.triangles, marks.colors, FaceSide::AwayFromEye, 1.0));
+  if (search.chosen && search.chosen->id < sphere.faces.size()) {
+    const SphereFace face = faceOf(sphere, search.chosen->id, center, radius_m);
+    for (int c = 0; c < 3; ++c)
+      content.props.push_back(
+          tubeActor({face.corners[c], face.corners[(c + 1) % 3]}, 0.008 * radius_m, palette::kChosen));
+    content.legend.push_back({Mark::Line, palette::kChosen, 1.0, "chosen view"});
+  }
+}
+
+/// Candidates anywhere: dots in colours, frusta for the best, marks for those that fell out.
+void addScattered(LayerContent& content, const SceneFrame& frame, const LayerStyle& style) {
+  const UtilitySearch& search = *frame.record.utilities;
+  std::vector<Eigen::Vector3d> eyes, few_known;
+  std::vector<Rgb> colors;
+  LineSet crosses, diamonds;
+  for (const ViewUtility& view : search.views) {
+    const Eigen::Vector3d eye = view.T_world_camera.translation();
+    const Eigen::Vector3d x = Eigen::Vector3d::UnitX() * 0.008, z = Eigen::Vector3d::UnitZ() * 0.008;
+    switch (fallenOf(view)) {
+      case Fallen::No:
+        eyes.push_back(eye);
+        colors.push_back(
+            colorAt(ColorMap::Viridis, factorOf(view, style.utility_factor) / content.scale->high));
+        break;
+      case Fallen::Position:
+        crosses.add(eye - x - z, eye + x + z);
+        crosses.add(eye - x + z, eye + x - z);
+        break;
+      case Fallen::Registration:
+        few_known.push_back(eye);
+        break;
+      case Fallen::Path:
+        for (const auto& [a, b] : {std::pair{x, z}, {z, -x}, {-x, -z}, {-z, x}})
+          diamonds.add(eye + 1.5 * a, eye + 1.5 * b);
+        break;
+    }
+  }
+  const double line = style.line_scale;
+  if (!eyes.empty()) {
+    content.props.push_back(dotActor(eyes, colors, palette::kInk, 7.0 * line));
+    content.legend.push_back({Mark::Dot, colorAt(ColorMap::Viridis, 0.5), 1.0, "candidate views that count"});
+  }
+  if (!few_known.empty()) {
+    content.props.push_back(dotActor(few_known, {}, palette::kRule, 2.5 * line));
+    content.legend.push_back({Mark::Dot, palette::kRule, 1.0, "rejected: too little known surface in view"});
+  }
+  if (!crosses.pieces.empty()) {
+    content.props.push_back(lineActor(crosses, palette::kRejectedPosition, 1.0 * line));
+    content.legend.push_back(
+        {Mark::Cross, palette::kRejectedPosition, 1.0, "rejected: the sensor does not fit there"});
+  }
+  if (!diamonds.pieces.empty()) {
+    content.props.push_back(lineActor(diamonds, palette::kUnreachable, 1.5 * line));
+    content.legend.push_back({Mark::Diamond, palette::kUnreachable, 1.0, "better, but cannot be reached"});
+  }
+}
+
+}  // namespace
+
+LayerContent utilitySphereLayer(const SceneFrame& frame, const LayerStyle& style) {
+  LayerContent content;
+  if (!frame.record.utilities || frame.record.utilities->views.empty() || !frame.header.octree)
+    return content;
+  content.scale = scaleOf(frame, style.utility_factor);
+  if (onSphere(frame)) {
+    addSphere(content, frame, style);
+    addReasonLegends(content, *frame.record.utilities);
+  } else {
+    addScattered(content, frame, style);
+  }
+  return content;
+}
+
+}  // namespace vantage

@@ -1,0 +1,129 @@
+// Key figures of the hierarchical planner and its octree.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "viewer/captions.h"
+#include "viewer/view_trace.h"
+
+namespace vantage {
+namespace {
+
+constexpr const char* kNoOctree =
+    "This product does not exist: the step was planned on contours in the TSDF, not by rays in an octree.";
+
+std::string rounded(double value, int digits) {
+  std::array<char, 64> text;
+  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
+  return text.data();
+}
+
+std::string fixed(double value) {
+  std::array<char, 64> text;
+  std::snprintf(text.data(), text.size(), "%.2f", value);
+  return text.data();
+}
+
+std::string whole(double value) {
+  return grouped(static_cast<std::uint64_t>(std::llround(std::max(0.0, value))));
+}
+
+std::string unitOf(const SceneFrame& frame) {
+  return frame.header.octree && frame.header.octree->planner.count == GainCount::Voxels ? " voxels" : " rays";
+}
+
+/// "Of 320 views 140 fell out by position, 33 by registration; 2 better ones are unreachable."
+std::string fallenText(const UtilitySearch& search) {
+  std::string text = "Of " + grouped(search.views.size()) + " views " + grouped(search.rejected_position) +
+                     " fell out by position, " + grouped(search.rejected_registration) + " by registration";
+  const std::uint64_t unreachable = search.counts.poses_unreachable;
+  if (unreachable > 0)
+    text += "; " + grouped(unreachable) +
+            (unreachable == 1 ? " better one is unreachable" : " better ones are unreachable");
+  return text + ".";
+}
+
+/// The view that would have been next: the first in the ranking that is not the chosen one and not refused.
+const ViewUtility* nextBest(const UtilitySearch& search) {
+  for (const std::uint32_t index : search.ranking) {
+    const ViewUtility& view = search.views[index];
+    if ((!search.chosen || view.id != search.chosen->id) && !isUnreachable(view.reachability)) return &view;
+  }
+  return nullptr;
+}
+
+std::string noneChosen(const SceneFrame& frame, const UtilitySearch& search) {
+  std::string text = "No view was chosen: ";
+  if (search.ranking.empty()) {
+    text += "none is left. ";
+  } else {
+    text += "the best of the " + grouped(search.ranking.size()) + " left sees " + whole(search.best_unknown) +
+            " unknown" + unitOf(frame);
+    if (frame.header.octree)
+      text += ", the planner stops below " + whole(frame.header.octree->planner.stop_gain);
+    text += ". ";
+  }
+  return text + fallenText(search);
+}
+
+}  // namespace
+
+std::string utilityFigures(const SceneFrame& frame, const LayerStyle&) {
+  if (!frame.record.utilities)
+    return onOctree(frame)
+               ? "No views were evaluated."
+               : "This product does not exist: the step's planner scores contour views, not by utility.";
+  const UtilitySearch& search = *frame.record.utilities;
+  const ViewUtility* view = chosenUtility(search);
+  if (!view) return noneChosen(frame, search);
+  std::string text = "View " + std::to_string(view->id) + ": " + whole(view->unknown) + " unknown and " +
+                     whole(view->occupied) + " known" + unitOf(frame) +
+                     " in the object's box; unknown share " + rounded(view->surface, 3) +
+                     " × distance factor " + fixed(view->distance) + " = utility " +
+                     rounded(view->utility, 3) + ". ";
+  if (const ViewUtility* next = nextBest(search))
+    text += "Next best: view " + std::to_string(next->id) + ", " + rounded(next->utility, 3) + ". ";
+  return text + fallenText(search);
+}
+
+std::string octreeFigures(const SceneFrame& frame, const LayerStyle& style) {
+  if (!onOctree(frame)) return kNoOctree;
+  const int level = std::min(style.octree_level.value_or(coarseLevels(frame)), frame.pyramid->coarseLevels());
+  const StateGrid& nodes = frame.pyramid->level(level);
+  const Box& box = frame.header.octree->object_box;
+  const auto count = [&](VoxelState state) { return grouped(nodes.count(state, box)); };
+  std::string text = "Depth " + std::to_string(OccupancyOctree::kDepth - level) + " of the octree, " +
+                     (level > 0 ? "nodes" : "voxels") + " of " + lengthText(nodes.geometry().voxel_size_m) +
+                     ". In the object's box: " + count(VoxelState::Occupied) + " occupied, " +
+                     count(VoxelState::Unknown) + " unknown, " + count(VoxelState::Free) + " free.";
+  if (level == 0) return text;
+  const bool max = frame.header.octree->map.occupancy.inner == InnerRule::Max;
+  return text + (max ? " A node is free if all of it is, occupied if anything in it is, else unknown."
+                     : " A node has the label of the mean of its voxels.");
+}
+
+std::string rayFigures(const SceneFrame& frame, const LayerStyle& style) {
+  if (!onOctree(frame)) return kNoOctree;
+  const std::optional<ViewTrace> trace = traceView(frame, style);
+  if (!trace) return "There is no view whose rays could be drawn.";
+  const RayLevel& start = frame.tree->level(trace->coarse_levels);
+  const RayCounts& n = trace->counts;
+  const std::string view = "View " + std::to_string(trace->view->id);
+  if (n.sensor_blocked) return view + ": the sensor stands in something that is not free, no ray is cast.";
+  std::string text = view + ": " + grouped(start.count()) + " rays through " +
+                     (trace->coarse_levels > 0 ? "nodes" : "voxels") + " of " +
+                     lengthText(start.voxel_size_m);
+  if (trace->coarse_levels > 0)
+    text += ", refined where they hit something occupied: " + grouped(n.finest_rays_cast) + " of " +
+            grouped(n.rays) + " finest rays cast";
+  text += ". Counted: " + grouped(n.unknown) + " finest rays on unknown, " + grouped(n.occupied) +
+          " on occupied.";
+  const DrawnRays drawn = thinned(*trace, *frame.tree, style.coarse_rays);
+  if (drawn.coarse.size() < start.count())
+    text += " Drawn: " + grouped(drawn.coarse.size()) + " of them" +
+            (drawn.refined.empty() ? "." : " and the finer ones below.");
+  return text;
+}
+
+}  // namespace vantage
