@@ -3,7 +3,6 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -82,20 +81,6 @@ void readSolids(const toml::node& node, const std::string& source, const std::st
   }
 }
 
-/// True for boxes along the axes: their volume is that of their bounding box.
-bool fillsItsBounds(const Solid& solid) {
-  const TriangleMesh& mesh = solid.mesh();
-  const Eigen::Vector3d middle = solid.bounds().center();
-  double volume = 0.0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Eigen::Vector3d p = mesh.vertices[a].cast<double>() - middle;
-    const Eigen::Vector3d q = mesh.vertices[b].cast<double>() - middle;
-    const Eigen::Vector3d r = mesh.vertices[c].cast<double>() - middle;
-    volume += p.dot(q.cross(r)) / 6;
-  }
-  return std::abs(volume - solid.bounds().volume()) <= 1e-4 * solid.bounds().volume();
-}
-
 }  // namespace
 
 const std::vector<std::string>& sceneGeometryKeys() {
@@ -143,13 +128,6 @@ std::vector<EmbeddedScene> embeddedScenes() {
     scenes.push_back({name, topLevelText(table, "description", "", name)});
   }
   return scenes;
-}
-
-std::vector<Box> knownSolids(const SceneFile& scene) {
-  std::vector<Box> boxes;
-  for (const Solid& solid : scene.solids)
-    if (solid.role() != SolidRole::Object && fillsItsBounds(solid)) boxes.push_back(solid.bounds());
-  return boxes;
 }
 
 TriangleMesh sceneMesh(const SceneFile& scene, bool include_room) {

@@ -71,10 +71,6 @@ struct EmbeddedScene {
 /// Scenes that are compiled into the program, by name.
 std::vector<EmbeddedScene> embeddedScenes();
 
-/// Boxes along the axes among the solids that are no objects, room included: what a map may hold from the
-/// start (D-A10).
-std::vector<Box> knownSolids(const SceneFile& scene);
-
 /// Surfaces of all solids in one mesh, with their colours; the room only if wanted.
 TriangleMesh sceneMesh(const SceneFile& scene, bool include_room);
 

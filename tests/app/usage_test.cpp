@@ -5,8 +5,9 @@
 namespace vantage::test {
 namespace {
 
-const std::vector<std::string> kCommands = {"explore", "snapshot", "fuse",   "contours", "views", "segment",
-                                            "gain",    "plan",     "scenes", "config",   "info",  "doctor"};
+const std::vector<std::string> kCommands = {"explore", "snapshot", "fuse",     "contours", "views",
+                                            "segment", "gain",     "plan",     "scenes",   "config",
+                                            "info",    "doctor",   "reproduce"};
 
 TEST(Usage, AloneItPrintsTheHelpAndExitsWith2) {
   const ProcessResult result = vantage({});
@@ -42,8 +43,7 @@ TEST(Usage, UnknownOptionsSuggestTheNearest) {
 }
 
 TEST(Usage, CommandsThatDoNotExistYetAreUnknown) {
-  for (const char* command : {"view", "report", "film", "reproduce"})
-    EXPECT_EQ(vantage({command}).code, 2) << command;
+  for (const char* command : {"view", "report", "film"}) EXPECT_EQ(vantage({command}).code, 2) << command;
 }
 
 TEST(Usage, UnknownKeysSuggestTheNearest) {

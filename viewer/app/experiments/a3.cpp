@@ -81,14 +81,15 @@ RateRun runRoom(const ExperimentOptions& options, std::vector<DefaultUsed>& defa
   const SceneFile scene = loadScene("a3_room");
   Settings settings;
   applyToml(settings, scene.text, scene.source_path, sceneGeometryKeys());
-  settings.exploration.octree.known_solids = knownSolids(scene);
+  settings.exploration.octree.known_scene = true;
   if (options.tune) options.tune(settings);
   settings.validate();
   defaults = defaultsUsed(settings);
   const ExplorationConfig& config = settings.exploration;
   SimulatedDepthCamera camera(scene, {settings.camera, settings.sensor, config.seed});
   FreeFlyer robot(settings.free_flyer, initialScanPoses(config.scan).back());
-  return measureRun("room", config, camera, robot, nullptr, options);
+  const SceneTruth truth(scene);
+  return measureRun("room", config, camera, robot, &truth, options);
 }
 
 /// (b) A recorded sequence: the chosen view is served by the nearest frame left.
@@ -98,6 +99,7 @@ RateRun runReplay(const ExperimentOptions& options) {
   ExplorationConfig& config = settings.exploration;
   config.planners = {PlannerKind::Hierarchical};
   config.hierarchical.generator = CandidateGenerator::Workspace;
+  config.hierarchical.exclude_executed = true;
   config.recorded_candidates = true;
   config.serve_distance_m = 0.10;
   config.serve_angle_rad = 0.17453292519943295;

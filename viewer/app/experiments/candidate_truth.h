@@ -23,6 +23,8 @@ class CandidateTruth : public GroundTruth {
   int objectAt(const Eigen::Vector3d& p_world, double within_m) const override {
     return truth_.objectAt(p_world, within_m);
   }
+  std::vector<Box> knownBoxes() const override { return truth_.knownBoxes(); }
+  bool insideKnown(const Eigen::Vector3d& p_world) const override { return truth_.insideKnown(p_world); }
   const std::vector<Eigen::Vector3f>& observableSurface() const override { return surface_; }
 
   /// Distance to the nearest surface of an object or of the table, metres.

@@ -32,7 +32,7 @@ class Meter {
     const UtilitySearch& search = *record.utilities;
     candidates_ = candidatesOf(search);
     const Pose& current = record.scan.back().T_world_camera;
-    const UtilityInput input{*world.pyramid(), tree_, box_, candidates_, current};
+    const UtilityInput input{*world.pyramid(), tree_, box_, candidates_, current, executed_};
 
     IterationResult step = countsOf(search);
     step.nbv_s = record.timings.generation.value_or(0.0) +
@@ -42,6 +42,7 @@ class Meter {
     if (record.step == 1) measureHidden(input);
     if (config_.coarse_levels == 0) compareWithHierarchical(input, search);
     if (record.step % 10 == 1) compareLabels(world);
+    if (search.chosen) executed_.push_back(search.chosen->T_world_camera);
   }
 
  private:
@@ -87,7 +88,7 @@ class Meter {
     HierarchicalQuery query;
     query.bounds = box_;
     for (const ViewUtility& view : search.views) {
-      if (view.rejection == ViewRejection::Position) continue;
+      if (view.rays.rays_cast == 0) continue;  // dropped before its rays
       ++result_.compared_with_uniform;
       result_.different_from_uniform +=
           castHierarchical(input.pyramid, tree_, 0, view.T_world_camera, query) != view.rays;
@@ -118,6 +119,7 @@ class Meter {
   RayTree tree_;
   RunResult& result_;
   std::vector<ViewCandidate> candidates_;
+  std::vector<Pose> executed_;
 };
 
 /// Distances of occupied voxel centres in the box to the true surface (evaluation.md, section 2).
@@ -137,6 +139,7 @@ ExplorationConfig configOf(const TableSetup& setup, const RunSpec& spec) {
   config.planners = {spec.coarse_levels == 0 ? PlannerKind::Uniform : PlannerKind::Hierarchical};
   config.hierarchical.coarse_levels = spec.coarse_levels;
   config.hierarchical.child_start = spec.start;
+  config.hierarchical.exclude_executed = !spec.repeat_views;
   config.octree.occupancy.inner = spec.inner;
   return config;
 }

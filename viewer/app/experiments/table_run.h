@@ -35,6 +35,7 @@ struct RunSpec {
   int coarse_levels = 0;  ///< m; 0 = uniform ray tracing
   ChildStart start = ChildStart::Resume;
   InnerRule inner = InnerRule::Max;
+  bool repeat_views = false;  ///< views that were taken may be chosen again, as the paper has it
   std::string label() const;  ///< "m=2 resume"
 };
 

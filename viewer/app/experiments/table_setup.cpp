@@ -26,7 +26,7 @@ TableSetup setUpTable(const ObjectSource& source, double size_m, int steps,
   applyToml(setup.settings, setup.scene.text, setup.scene.source_path, sceneGeometryKeys());
   ExplorationConfig& exploration = setup.settings.exploration;
   exploration.octree.object_box = exploration.workspace = objectBox(setup.scene);
-  exploration.octree.known_solids = knownSolids(setup.scene);
+  exploration.octree.known_scene = true;
   exploration.planners = {PlannerKind::Hierarchical};
   exploration.steps = steps;
   if (tune) tune(setup.settings);
@@ -38,9 +38,9 @@ TableSetup setUpTable(const ObjectSource& source, double size_m, int steps,
 }
 
 std::string RunSpec::label() const {
-  if (coarse_levels == 0) return "m=0 uniform";
-  return fmt::format("m={} {}{}", coarse_levels, start == ChildStart::Resume ? "resume" : "restart",
-                     inner == InnerRule::Mean ? " mean" : "");
+  const char* mode = coarse_levels == 0 ? "uniform" : start == ChildStart::Resume ? "resume" : "restart";
+  return fmt::format("m={} {}{}{}", coarse_levels, mode, inner == InnerRule::Mean ? " mean" : "",
+                     repeat_views ? " repeats" : "");
 }
 
 }  // namespace vantage::experiments
