@@ -21,7 +21,7 @@ int contours(const GlobalOptions& global, const ContourOptions& options) {
   requireDistinctFiles(
       {{"MAP", options.map}, {"-o", options.voxels}, {"--points", options.points}, {"--json", global.json}});
   const LoadedMap map = loadMap(global, options.map);
-  const Contours found = extractContours(map.volume, map.settings.exploration.planner.contours);
+  const Contours found = extractContours(map.volume, map.settings.exploration.contour.contours);
   writeContourVoxels(options.voxels, map.volume.geometry(), found.voxels);
   if (!options.points.empty()) writeContourPoints(options.points, found.points);
   if (options.voxels != "-" && options.points != "-" && global.json != "-")

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "core/perception/surface_cloud.h"
 #include "io/cloud_file.h"
 #include "io/dataset.h"
+#include "io/octree_file.h"
 #include "io/volume_file.h"
 #include "viewer/app/command.h"
 #include "viewer/app/console.h"
@@ -23,6 +26,11 @@ struct FuseOptions {
   std::optional<double> voxel_size_m, truncation_m;
   std::vector<double> bounds;
 };
+
+bool isOctree(const FuseOptions& options) {
+  const auto ending = std::filesystem::path(options.output).extension();
+  return ending == ".bt" || ending == ".ot";
+}
 
 /// Truncation in voxels where only the voxel size is given (spec of the contour planner, section 10).
 constexpr double kTruncationVoxels = 5.12;
@@ -50,13 +58,18 @@ std::pair<std::size_t, std::size_t> frameRange(const std::string& text, std::siz
   return {first, last};
 }
 
+void requireBounds(const std::vector<double>& b) {
+  for (int a = 0; a < 3; ++a)
+    if (!(b[a] < b[a + 3]))
+      throw InputError("--bounds", "a lower limit is not below its upper one; give x0,y0,z0,x1,y1,z1");
+}
+
 /// Bounds rounded outward to whole voxels (the origin is the centre of the first).
 GridGeometry boundedVolume(const std::vector<double>& b, double voxel_size_m) {
+  requireBounds(b);
   GridGeometry geometry;
   geometry.voxel_size_m = voxel_size_m;
   for (int a = 0; a < 3; ++a) {
-    if (!(b[a] < b[a + 3]))
-      throw InputError("--bounds", "a lower limit is not below its upper one; give x0,y0,z0,x1,y1,z1");
     const double first = std::floor(b[a] / voxel_size_m), last = std::ceil(b[a + 3] / voxel_size_m);
     if (last - first > 1 << 20)
       throw InputError("--bounds",
@@ -75,20 +88,55 @@ GridGeometry resampled(const GridGeometry& geometry, double voxel_size_m) {
       voxel_size_m);
 }
 
-int fuse(const GlobalOptions& global, const FuseOptions& options) {
+void checkOptions(const GlobalOptions& global, const FuseOptions& options) {
   requireDistinctFiles({{"DATASET", options.dataset},
                         {"-o", options.output},
                         {"--mesh", options.mesh},
                         {"--cloud", options.cloud},
                         {"--json", global.json}});
-  requireEnding("-o", options.output, {".vti"});
+  requireEnding("-o", options.output, {".vti", ".bt", ".ot"});
   if (!options.mesh.empty()) requireEnding("--mesh", options.mesh, {".ply"});
   if (!options.cloud.empty()) requireEnding("--cloud", options.cloud, {".pcd", ".ply"});
   if (options.voxel_size_m && !(*options.voxel_size_m >= 1e-4 && *options.voxel_size_m <= 1.0))
     throw InputError("--voxel-size",
                      fmt::format("{} m is out of range; allowed: 0.0001 .. 1", *options.voxel_size_m));
-  Dataset dataset = openDataset(options.dataset);
-  Settings settings = datasetSettings(global, dataset);
+  if (!isOctree(options)) return;
+  const auto refuse = [&](const char* option) {
+    throw InputError(option, "belongs to a TSDF; write one (-o MAP.vti), or leave it out");
+  };
+  if (options.truncation_m) refuse("--truncation");
+  if (!options.mesh.empty()) refuse("--mesh");
+  if (!options.cloud.empty()) refuse("--cloud");
+}
+
+/// Hands the frames asked for to `insert`. \return how many
+std::size_t eachFrame(const GlobalOptions& global, const FuseOptions& options, const Dataset& dataset,
+                      const std::function<void(const DepthImage&, const Pose&)>& insert) {
+  const auto [first, last] = frameRange(options.frames, dataset.frames.size());
+  Console console(global);
+  const RunControl control = console.control();
+  for (std::size_t n = first; n < last; ++n) {
+    if (console.interrupted()) throw Interrupted(options.output + ": interrupted; nothing was written");
+    control.report("fuse", n - first, last - first);
+    insert(loadDepth(dataset, n), dataset.frames[n].T_world_camera);
+  }
+  console.clear();
+  return last - first;
+}
+
+void report(const GlobalOptions& global, std::size_t frames, const GridGeometry& geometry,
+            std::uint64_t updated) {
+  say(global, fmt::format("{} frames into {} x {} x {} voxels of {:.3f} mm, {} voxel updates", frames,
+                          geometry.size.x(), geometry.size.y(), geometry.size.z(),
+                          geometry.voxel_size_m * 1e3, updated));
+  writeJson(global.json, {{"frames", frames},
+                          {"size", {geometry.size.x(), geometry.size.y(), geometry.size.z()}},
+                          {"voxel_size_m", geometry.voxel_size_m},
+                          {"voxels_updated", updated}});
+}
+
+void fuseVolume(const GlobalOptions& global, const FuseOptions& options, const Dataset& dataset,
+                const Settings& settings) {
   GridGeometry geometry = settings.exploration.volume;
   FusionConfig fusion = settings.exploration.fusion;
   if (options.voxel_size_m) geometry = resampled(geometry, *options.voxel_size_m);
@@ -99,33 +147,49 @@ int fuse(const GlobalOptions& global, const FuseOptions& options) {
     fusion.truncation_m = std::max(fusion.truncation_m, kTruncationVoxels * geometry.voxel_size_m);
   fusion.validate(geometry.voxel_size_m);
 
-  const auto [first, last] = frameRange(options.frames, dataset.frames.size());
   TsdfVolume volume(geometry);
   std::uint64_t updated = 0;
-  Console console(global);
-  const RunControl control = console.control();
-  for (std::size_t n = first; n < last; ++n) {
-    if (console.interrupted()) throw Interrupted(options.output + ": interrupted; nothing was written");
-    control.report("fuse", n - first, last - first);
-    updated +=
-        fuseDepth(volume, loadDepth(dataset, n), settings.camera, dataset.frames[n].T_world_camera, fusion)
-            .voxels_updated;
-  }
-  console.clear();
+  const std::size_t frames =
+      eachFrame(global, options, dataset, [&](const DepthImage& depth, const Pose& pose) {
+        updated += fuseDepth(volume, depth, settings.camera, pose, fusion).voxels_updated;
+      });
   writeVolume(options.output, volume);
   if (!options.mesh.empty() || !options.cloud.empty()) {
     const SurfaceCloud surface =
-        extractSurface(volume, settings.exploration.planner.contours.weight_threshold);
+        extractSurface(volume, settings.exploration.contour.contours.weight_threshold);
     if (!options.mesh.empty()) writeMesh(options.mesh, surface);
     if (!options.cloud.empty()) writeCloud(options.cloud, surface);
   }
-  say(global, fmt::format("{} frames into {} x {} x {} voxels of {:.3f} mm, {} voxel updates", last - first,
-                          geometry.size.x(), geometry.size.y(), geometry.size.z(),
-                          geometry.voxel_size_m * 1e3, updated));
-  writeJson(global.json, {{"frames", last - first},
-                          {"size", {geometry.size.x(), geometry.size.y(), geometry.size.z()}},
-                          {"voxel_size_m", geometry.voxel_size_m},
-                          {"voxels_updated", updated}});
+  report(global, frames, geometry, updated);
+}
+
+/// The mapped space is that of a TSDF; what was not seen is unknown there. Bounds are the object's box too.
+void fuseOctree(const GlobalOptions& global, const FuseOptions& options, const Dataset& dataset,
+                const Settings& settings) {
+  const ExplorationConfig& exploration = settings.exploration;
+  const double voxel_size_m = options.voxel_size_m.value_or(exploration.octree.voxel_size_m);
+  Box mapped = exploration.volume.bounds();
+  if (!options.bounds.empty()) {
+    requireBounds(options.bounds);
+    mapped = Box(Eigen::Vector3d::Map(options.bounds.data()), Eigen::Vector3d::Map(&options.bounds[3]));
+  }
+  const GridGeometry grid = OccupancyOctree::gridAround(mapped, voxel_size_m);
+  const Box object = options.bounds.empty() ? exploration.objectBox() : grid.bounds();
+  OccupancyOctree map(grid, object, VoxelState::Unknown, exploration.octree.occupancy);
+  std::uint64_t updated = 0;
+  const std::size_t frames =
+      eachFrame(global, options, dataset, [&](const DepthImage& depth, const Pose& pose) {
+        updated += map.insert(depth, settings.camera, pose).updated;
+      });
+  writeOctree(options.output, map);
+  report(global, frames, grid, updated);
+}
+
+int fuse(const GlobalOptions& global, const FuseOptions& options) {
+  checkOptions(global, options);
+  Dataset dataset = openDataset(options.dataset);
+  const Settings settings = datasetSettings(global, dataset);
+  (isOctree(options) ? fuseOctree : fuseVolume)(global, options, dataset, settings);
   return 0;
 }
 
@@ -133,25 +197,32 @@ int fuse(const GlobalOptions& global, const FuseOptions& options) {
 
 void addFuse(CLI::App& app, const GlobalOptions& global, Action& action) {
   auto o = std::make_shared<FuseOptions>();
-  CLI::App* command = app.add_subcommand("fuse", "Depth frames with poses into a TSDF");
+  CLI::App* command = app.add_subcommand("fuse", "Depth frames with poses into a TSDF or an octree");
   command->add_option("dataset", o->dataset, "Folder of a recorded RGB-D sequence")
       ->required()
       ->type_name("DATASET");
-  command->add_option("-o,--output", o->output, "TSDF to write (.vti)")->required()->type_name("MAP.vti");
+  command->add_option("-o,--output", o->output, "Map to write: TSDF (.vti) or octree (.bt, .ot)")
+      ->required()
+      ->type_name("MAP");
   command->add_option("--frames", o->frames, "Positions in the sequence, first and one past the last")
       ->type_name("A:B");
   command->add_option("--voxel-size", o->voxel_size_m, "Voxel edge, metres")->type_name("M");
   command
       ->add_option("--truncation", o->truncation_m,
-                   "Truncation distance, metres (default: at least 5.12 voxels)")
+                   "TSDF: truncation distance, metres (default: at least 5.12 voxels)")
       ->type_name("M");
-  command->add_option("--bounds", o->bounds, "Mapped box, metres, rounded outward to whole voxels")
+  command
+      ->add_option("--bounds", o->bounds,
+                   "Mapped box, metres, rounded outward to whole voxels; of an octree the object's box too")
       ->delimiter(',')
       ->expected(6)
       ->type_name("x0,y0,z0,x1,y1,z1");
-  command->add_option("--mesh", o->mesh, "Also the surface as a mesh")->type_name("FILE.ply");
-  command->add_option("--cloud", o->cloud, "Also the surface points with normals")->type_name("FILE.pcd");
-  command->footer("Example: vantage fuse recordings/tray -o tray.vti --voxel-size 0.004 --mesh tray.ply");
+  command->add_option("--mesh", o->mesh, "TSDF: also the surface as a mesh")->type_name("FILE.ply");
+  command->add_option("--cloud", o->cloud, "TSDF: also the surface points with normals")
+      ->type_name("FILE.pcd");
+  command->footer(
+      "Example: vantage fuse recordings/tray -o tray.vti --voxel-size 0.004 --mesh tray.ply\n"
+      "         vantage fuse recordings/tray -o tray.bt --voxel-size 0.01");
   command->callback([&global, &action, o] { action = [&global, o] { return fuse(global, *o); }; });
 }
 

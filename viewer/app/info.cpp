@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -46,8 +47,38 @@ Json describeRun(const std::string& path) {
           {"command", h.command_line}};
 }
 
+/// Voxels of the grid by state; space that is not stored is unknown.
+Json describeOctree(const OccupancyOctree& map) {
+  const GridGeometry& g = map.geometry();
+  const OccupancyBand band(map.config());
+  std::array<std::uint64_t, 3> states{};
+  std::vector<float> values;
+  for (std::uint32_t b = 0; b < map.bricks().total(); ++b) {
+    const BrickRange r = map.bricks().range(b);
+    values.resize((r.end - r.begin).prod());
+    map.readBrick(b, values);
+    for (const float value : values) ++states[static_cast<std::size_t>(band.label(value))];
+  }
+  const double voxel_m3 = std::pow(g.voxel_size_m, 3);
+  const auto corner = [](const Eigen::Vector3d& p) { return Json{p.x(), p.y(), p.z()}; };
+  return {{"kind", "octree"},
+          {"voxels", {g.size.x(), g.size.y(), g.size.z()}},
+          {"voxel_size_m", g.voxel_size_m},
+          {"min_m", corner(g.bounds().min())},
+          {"max_m", corner(g.bounds().max())},
+          {"object_min_m", corner(map.objectBox().min())},
+          {"object_max_m", corner(map.objectBox().max())},
+          {"unknown", states[0]},
+          {"free", states[1]},
+          {"occupied", states[2]},
+          {"free_m3", static_cast<double>(states[1]) * voxel_m3},
+          {"occupied_m3", static_cast<double>(states[2]) * voxel_m3},
+          {"nodes", map.nodeCount()}};
+}
+
 Json describeMap(const GlobalOptions& global, const std::string& path) {
-  const LoadedMap map = loadMap(global, path);
+  const LoadedMap map = loadMap(global, path, MapNeed::Either);
+  if (!map.hasVolume()) return describeOctree(*map.octree);
   const GridGeometry& g = map.volume.geometry();
   std::array<std::uint64_t, 3> states{};
   std::uint16_t heaviest = 0;
@@ -113,14 +144,15 @@ Json describeTable(const std::string& path) {
 
 Json describe(const GlobalOptions& global, const std::string& path) {
   const std::string extension = std::filesystem::path(path.substr(0, path.find('#'))).extension().string();
-  if (path.find('#') != std::string::npos || extension == ".vti") return describeMap(global, path);
+  if (path.find('#') != std::string::npos || extension == ".vti" || extension == ".bt" || extension == ".ot")
+    return describeMap(global, path);
   if (extension == ".vantage") return describeRun(path);
   if (extension == ".pcd" || extension == ".ply") return describeCloud(path);
   if (std::filesystem::is_directory(path)) return describeDataset(path);
   if (extension == ".csv") return describeTable(path);
   if (extension == ".toml" || extension.empty()) return describeScene(path);
   throw InputError(path,
-                   "not a kind of file that is known; known: .vantage, .vti, .pcd, .ply, .csv, "
+                   "not a kind of file that is known; known: .vantage, .vti, .bt, .ot, .pcd, .ply, .csv, "
                    ".toml, data set folders");
 }
 
@@ -138,7 +170,8 @@ int info(const GlobalOptions& global, const std::string& path) {
 void addInfo(CLI::App& app, const GlobalOptions& global, Action& action) {
   auto path = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("info", "What a file holds: run, map, cloud, scene, data set");
-  command->add_option("file", *path, "Run, RUN#STEP, .vti, .pcd, .ply, CSV, scene, or data set folder")
+  command
+      ->add_option("file", *path, "Run, RUN#STEP, .vti, .bt, .ot, .pcd, .ply, CSV, scene, or data set folder")
       ->required()
       ->type_name("FILE");
   command->footer("Example: vantage info tabletop.vantage");

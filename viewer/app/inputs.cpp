@@ -10,6 +10,7 @@
 #include "hardware/replay_depth_camera.h"
 #include "hardware/simulated_depth_camera.h"
 #include "hardware/simulated_robot.h"
+#include "io/octree_file.h"
 #include "io/scene_file.h"
 #include "io/scene_truth.h"
 #include "io/volume_file.h"
@@ -43,7 +44,7 @@ FeasibleViews feasibleViews(const Settings& settings) {
   views.region = settings.exploration.volume.bounds();
   views.region.min().z() = std::max(views.region.min().z(), settings.free_flyer.min_height_m);
   views.body_radius_m = settings.free_flyer.body_radius_m;
-  views.distance_m = settings.exploration.planner.views.distances_m.front();
+  views.distance_m = settings.exploration.contour.views.distances_m.front();
   return views;
 }
 
@@ -107,20 +108,40 @@ int findStep(const RunReader& run, const RunMap& map) {
   return step;
 }
 
-LoadedMap loadRunMap(const GlobalOptions& global, const RunMap& map) {
+[[noreturn]] void refuseKind(const std::string& map, MapNeed need) {
+  if (need == MapNeed::Tsdf)
+    throw InputError(map,
+                     "is an octree, and this command works on a TSDF; give a .vti file (vantage fuse DATASET "
+                     "-o MAP.vti) or a run of the contour planner");
+  throw InputError(map,
+                   "is a TSDF, and this command works on an octree; give a .bt or .ot file (vantage fuse "
+                   "DATASET -o MAP.bt) or a run of the hierarchical planner");
+}
+
+LoadedMap loadRunMap(const GlobalOptions& global, const RunMap& map, MapNeed need) {
   const RunReader run(map.path);
   LoadedMap loaded;
   applyUserConfig(loaded.settings);
   applyToml(loaded.settings, run.header().config_toml, map.path);
+  const bool keeps_volume = loaded.settings.exploration.needsVolume(),
+             keeps_octree = run.header().octree.has_value();
+  if (need == MapNeed::Tsdf ? !keeps_volume : need == MapNeed::Octree && !keeps_octree)
+    refuseKind(map.path, need);
   applyCommandLine(loaded.settings, global);
   loaded.settings.validate();
   const int step = findStep(run, map);
-  loaded.volume = TsdfVolume(run.header().volume);
-  run.advanceVolume(loaded.volume, 0, step);
+  if (keeps_volume && need != MapNeed::Octree) {
+    loaded.volume = TsdfVolume(run.header().volume);
+    run.advanceVolume(loaded.volume, 0, step);
+  }
+  if (keeps_octree && need != MapNeed::Tsdf) {
+    loaded.octree = emptyOctree(run.header());
+    run.advanceOctree(*loaded.octree, 0, step);
+  }
   loaded.step = step;
   for (const int earlier : run.steps())
     if (earlier < step)
-      loaded.exclusions.add(run.step(earlier, RunDetail::NoVolume), loaded.settings.exploration.planner.gain);
+      loaded.exclusions.add(run.step(earlier, RunDetail::NoVolume), loaded.settings.exploration.contour.gain);
   loaded.record =
       step == run.closingStep() ? run.closing(RunDetail::NoVolume) : run.step(step, RunDetail::NoVolume);
   return loaded;
@@ -168,10 +189,17 @@ Settings datasetSettings(const GlobalOptions& global, Dataset& dataset) {
   return settings;
 }
 
-LoadedMap loadMap(const GlobalOptions& global, const std::string& map) {
-  if (const auto run = asRunMap(map)) return loadRunMap(global, *run);
+LoadedMap loadMap(const GlobalOptions& global, const std::string& map, MapNeed need) {
+  if (const auto run = asRunMap(map)) return loadRunMap(global, *run, need);
   LoadedMap loaded;
   loaded.settings = commandSettings(global);
+  const std::string ending = std::filesystem::path(map).extension().string();
+  const bool is_octree = ending == ".bt" || ending == ".ot";
+  if (is_octree ? need == MapNeed::Tsdf : need == MapNeed::Octree) refuseKind(map, need);
+  if (is_octree) {
+    loaded.octree = readOctree(map, loaded.settings.exploration.octree.occupancy);
+    return loaded;
+  }
   std::vector<std::string> warnings;
   loaded.volume = readVolume(map, warnings);
   for (const std::string& warning : warnings) warn(warning);

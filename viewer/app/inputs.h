@@ -9,6 +9,7 @@
 #include "core/exploration/plan_view.h"
 #include "core/exploration/ports.h"
 #include "core/geometry/triangle_mesh.h"
+#include "core/volume/occupancy_octree.h"
 #include "io/config_file.h"
 #include "io/dataset.h"
 #include "io/run_file.h"
@@ -43,18 +44,23 @@ Settings sceneSettings(const GlobalOptions& global, const std::string& scene);
 /// elsewhere in the world. \throws InputError
 Settings datasetSettings(const GlobalOptions& global, Dataset& dataset);
 
+/// What a command works on.
+enum class MapNeed { Tsdf, Octree, Either };
+
 /// A map from a file and what is known about where it came from.
 struct LoadedMap {
-  TsdfVolume volume;
+  TsdfVolume volume;                      ///< without voxels if the map is an octree alone
+  std::optional<OccupancyOctree> octree;  ///< of `.bt`, `.ot`, and of runs that keep one
+  bool hasVolume() const { return !volume.voxels().empty(); }
   std::optional<StepRecord> record;  ///< of RUN#STEP
   int step = 1;                      ///< of RUN#STEP
   Exclusions exclusions;             ///< what the run's earlier steps left out
   Settings settings;                 ///< commandSettings(), over the run's own configuration for RUN#STEP
 };
 
-/// MAP: a `.vti` file, `RUN.vantage` (its last map), `RUN.vantage#STEP` or `RUN.vantage#end`. Warnings are
-/// printed. \throws InputError
-LoadedMap loadMap(const GlobalOptions& global, const std::string& map);
+/// MAP: a `.vti`, `.bt` or `.ot` file, `RUN.vantage` (its last map), `RUN.vantage#STEP` or `RUN.vantage#end`.
+/// Warnings are printed. \throws InputError, also for a map of the kind that is not needed.
+LoadedMap loadMap(const GlobalOptions& global, const std::string& map, MapNeed need = MapNeed::Tsdf);
 
 /// Refuses outputs that would overwrite an input or each other. Pairs of a name for messages and a path;
 /// empty paths do not count. \throws InputError

@@ -38,9 +38,9 @@ int segment(const GlobalOptions& global, const SegmentOptions& options) {
   } else {
     const LoadedMap map = loadMap(global, options.input);
     settings = map.settings;
-    cloud = extractSurface(map.volume, settings.exploration.planner.contours.weight_threshold);
+    cloud = extractSurface(map.volume, settings.exploration.contour.contours.weight_threshold);
   }
-  const ContourPlannerConfig& planner = settings.exploration.planner;
+  const ContourPlannerConfig& planner = settings.exploration.contour;
   const Labels labels = segmentSurface(cloud, planner.segmentation);
   const Saliency saliency = computeSaliency(cloud, labels, planner.saliency);
   std::vector<Segment> ranked;
