@@ -34,10 +34,12 @@ std::vector<Recipe> makeRecipes() {
                  viewOf({Layer::Surface, Layer::Unknown, Layer::RankedViews, Layer::ChosenView, Layer::Path}),
                  viewFigures});
   ViewSettings octree = viewOf({Layer::Octree});
-  all.push_back({"octree", "Octree where tracing starts",
-                 "occupied and unknown nodes at one depth of the octree", octree, octreeFigures});
+  octree.layers.set(Layer::Workspace, false);
+  octree.camera.object = true;
+  all.push_back(
+      {"octree", "Octree", "occupied and unknown nodes at one depth of the octree", octree, octreeFigures});
   ViewSettings rays = viewOf({Layer::Truth, Layer::HitVoxels, Layer::CoarseRays, Layer::RefinedRays});
-  rays.style.truth_opacity = 0.25;
+  rays.style.truth_opacity = 0.15;
   rays.layers.set(Layer::Workspace, false);
   rays.camera.object = true;
   all.push_back({"rays", "Rays of the next best view", "coarse rays, refined rays and what they hit", rays,

@@ -94,8 +94,9 @@ double drawScale(Page& page, double x, double y, double width, const ColorScale&
   page.frame(x, y, width, height, palette::kFaintInk);
   style.size_px = static_cast<int>(std::lround(12.5 * unit));
   const double span = scale.high - scale.low;
-  const int ticks =
-      span >= 1e4 || (span >= 500.0 && width < 240.0 * unit) ? 3 : 5;  // long numbers would touch
+  const int ticks = span >= 1e4 || ((span >= 500.0 || span < 0.5) && width < 240.0 * unit)
+                        ? 3
+                        : 5;  // long numbers would touch
   for (int i = 0; i < ticks; ++i) {
     const double at = x + width * i / (ticks - 1);
     page.line(at, y + height, at, y + height + 4.0 * unit, palette::kFaintInk);

@@ -54,10 +54,15 @@ unreachable_views = 3
 frustum_length_m = 0.2
 slice_axis = "z"
 slice_at_m = 0.05
+octree_level = 3
+view_id = 17
+coarse_rays = 99
+utility_factor = "distance"
 label_px = 20
 line_scale = 2
 [camera]
 azimuth_deg = 90
+focus = "object"
 elevation_deg = 10
 fov_deg = 30
 zoom = 2.5
@@ -88,6 +93,11 @@ height_share = 0.6
   EXPECT_EQ(recipe.view.camera.zoom, 2.5);
   EXPECT_EQ(recipe.view.camera.front_m, 0.4);
   EXPECT_EQ(recipe.view.camera.height_share, 0.6);
+  EXPECT_EQ(recipe.view.style.octree_level, 3);
+  EXPECT_EQ(recipe.view.style.view_id, 17);
+  EXPECT_EQ(recipe.view.style.coarse_rays, 99);
+  EXPECT_EQ(recipe.view.style.utility_factor, UtilityFactor::Distance);
+  EXPECT_TRUE(recipe.view.camera.object);
 }
 
 TEST_F(RecipeFile, WhatIsLeftOutIsAsInTheBuiltInOnes) {
@@ -130,6 +140,12 @@ TEST_F(RecipeFile, MistakesAreNamedWithFileAndLine) {
   EXPECT_THAT(messageOf(good + "[camera]\nelevation_deg = 90\n"),
               HasSubstr("own.toml:3: camera: elevation_rad"));
   EXPECT_THAT(messageOf(good + "[camera]\nzom = 2\n"), HasSubstr("own.toml:3: camera: unknown key 'zom'"));
+  EXPECT_THAT(messageOf(good + "[camera]\nfocus = \"all\"\n"),
+              HasSubstr("own.toml:3: camera: there is no focus"));
+  EXPECT_THAT(messageOf(good + "[style]\nutility_factor = \"gain\"\n"),
+              HasSubstr("own.toml:3: style: there is no factor 'gain'"));
+  EXPECT_THAT(messageOf(good + "[style]\noctree_level = 9\n"), HasSubstr("own.toml:3: style: octree_level"));
+  EXPECT_THAT(messageOf(good + "[style]\nview_id = -2\n"), HasSubstr("own.toml:3: style: view_id"));
   EXPECT_THAT(messageOf(good + "camera = 3\n"), HasSubstr("own.toml:2: 'camera' is no table"));
   EXPECT_THAT(messageOf("layers = [\n"), HasSubstr("broken TOML"));
 }

@@ -104,8 +104,8 @@ TEST(Captions, RaysAreThoseOfTheStyleView) {
   EXPECT_THAT(rayFigures(run.frame(), style), testing::StartsWith("View 5: "));
   const ViewUtility& chosen = *chosenUtility(*run.record.utilities);
   EXPECT_THAT(rayFigures(run.frame(), {}),
-              HasSubstr("Counted: " + grouped(chosen.rays.unknown) + " unknown and " +
-                        grouped(chosen.rays.occupied) + " occupied"));
+              HasSubstr("Counted: " + grouped(chosen.rays.unknown) + " finest rays on unknown, " +
+                        grouped(chosen.rays.occupied) + " on occupied"));
 }
 
 TEST(Captions, ProductsOfTheOtherPlannerDoNotExist) {

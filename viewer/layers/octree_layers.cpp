@@ -104,8 +104,11 @@ LayerContent octreeLayer(const SceneFrame& frame, const LayerStyle& style) {
   const StateGrid& nodes = pyramid.level(level);
   Box clip = frame.header.workspace;
   if (!clip.isEmpty()) clip.min().z() -= kSupportMargin_m;
+  // Nodes that intersect the object's box: only these count (D-A8).
+  const Box& object = frame.header.octree->object_box;
   const double half_m = nodes.geometry().voxel_size_m / 2;
-  const Box node_clip = clip.isEmpty() ? clip : Box(clip.min().array() - half_m, clip.max().array() + half_m);
+  const Box node_clip =
+      object.isEmpty() ? object : Box(object.min().array() - half_m, object.max().array() + half_m);
 
   const FaceMesh solid = extractFaces(pyramid.finest(), VoxelState::Occupied, FaceRule::TowardOther, clip);
   if (!solid.empty()) {
@@ -115,10 +118,10 @@ LayerContent octreeLayer(const SceneFrame& frame, const LayerStyle& style) {
   }
   if (level > 0) {
     const FaceMesh cubes = extractFaces(nodes, VoxelState::Occupied, FaceRule::TowardOther, node_clip);
-    addNodes(content, cubes, palette::kNode, 0.10, palette::kNode, 1.0 * style.line_scale, 0.55);
+    addNodes(content, cubes, palette::kNode, 0.10, palette::kNode, 1.2 * style.line_scale, 0.7);
     if (!cubes.empty())
       content.legend.push_back({Mark::Fill, palette::kNode, 0.25,
-                                "occupied nodes, " + edgeText(pyramid, level) + ": something in them is"});
+                                "occupied nodes, " + edgeText(pyramid, level) + ": anything in them is"});
   }
   const FaceMesh frontier = extractFaces(nodes, VoxelState::Unknown, FaceRule::TowardFree, node_clip);
   if (frontier.empty()) return content;

@@ -116,7 +116,7 @@ SphereFace faceOf(const Icosphere& sphere, std::size_t face, const Eigen::Vector
 
 /// Reasons differ by mark, not by colour alone: a cross, stripes, a diamond.
 void addReason(Patches& marks, const SphereFace& face, Fallen fallen) {
-  constexpr Rgb kMark = rgb(70, 72, 78);
+  constexpr Rgb kMark = rgb(96, 98, 104);
   const double size = face.size(), width = 0.08 * size;
   const Eigen::Vector3d u = (face.corners[0] - face.middle).normalized(), v = face.normal.cross(u);
   const auto at = [&](double x, double y) { return Eigen::Vector3d(face.middle + size * (x * u + y * v)); };
