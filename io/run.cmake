@@ -5,5 +5,5 @@ pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 
 vantage_library(vantage_io_run
   SOURCES json_summary.cpp run_bytes.cpp run_codec.cpp run_database.cpp run_reader.cpp run_schema.cpp run_writer.cpp
-  PUBLIC vantage_volume
+  PUBLIC vantage_exploration
   PRIVATE SQLite::SQLite3 PkgConfig::ZSTD TBB::tbb nlohmann_json::nlohmann_json)

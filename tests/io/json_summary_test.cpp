@@ -39,7 +39,16 @@ const Keys kStep = {"step",
                     "saliency",
                     "toward_object",
                     "unknown_near_objects",
-                    "unknown_in_boxes"};
+                    "unknown_in_boxes",
+                    "planner",
+                    "rejected_position",
+                    "rejected_registration",
+                    "occupied",
+                    "distance",
+                    "utility",
+                    "literal_stop",
+                    "box_unknown",
+                    "box_occupied"};
 const Keys kTimings = {"sense",           "filter",   "fuse",       "contours",   "surface",
                        "segmentation",    "saliency", "generation", "evaluation", "collision_map",
                        "motion_planning", "motion"};
@@ -134,11 +143,47 @@ TEST(JsonSummary, PointsWithoutASegmentAreSegmentZeroAndTheBaselineHasNone) {
   EXPECT_TRUE(json["steps"][1]["saliency"].is_null());
 }
 
+TEST(JsonSummary, CarriesTheFactorsOfTheHierarchicalPlanner) {
+  StepRecord record;
+  record.planner = "hierarchical";
+  UtilitySearch search;
+  search.rejected_position = 3;
+  search.rejected_registration = 2;
+  search.counts.rays = 77;
+  search.views.resize(1);
+  search.views[0].id = 9;
+  search.views[0].occupied = 450;
+  search.views[0].distance = 0.5;
+  search.views[0].utility = 0.125;
+  search.ranking = {0};
+  search.chosen.emplace();
+  search.chosen->id = 9;
+  search.chosen->gain = 1234;
+  record.utilities = std::make_shared<UtilitySearch>(search);
+  record.box = std::make_shared<BoxMetrics>(BoxMetrics{500, 60});
+  JsonSummary summary(header(false));
+  summary.add(record);
+  const Json step = Json::parse(summary.text())["steps"][0];
+  EXPECT_EQ(step["status"], "view");
+  EXPECT_EQ(step["planner"], "hierarchical");
+  EXPECT_EQ(step["gain"], 1234.0);
+  EXPECT_EQ(step["rays"], 77u);
+  EXPECT_EQ(step["rejected_position"], 3u);
+  EXPECT_EQ(step["rejected_registration"], 2u);
+  EXPECT_EQ(step["occupied"], 450.0);
+  EXPECT_EQ(step["distance"], 0.5);
+  EXPECT_EQ(step["utility"], 0.125);
+  EXPECT_EQ(step["box_unknown"], 500u);
+  EXPECT_EQ(step["box_occupied"], 60u);
+  EXPECT_TRUE(step["segment"].is_null());
+}
+
 TEST(JsonSummary, AStepWithoutAViewIsNoneWithNulls) {
   StepRecord record = randomRecord(1, 1);
   auto search = std::make_shared<ViewSearch>(*record.search);
   search->chosen.reset();
   record.search = search;
+  record.utilities.reset();
   record.realised_voxels.reset();
   record.toward_object.reset();
   JsonSummary summary(header(false));
@@ -178,8 +223,8 @@ TEST(JsonSummary, FromARunFileEqualsTheLiveOne) {
     EXPECT_EQ(recorded, live.text());
     const Json json = Json::parse(recorded);
     EXPECT_EQ(json["stop_reason"], "steps done");
-    EXPECT_EQ(keysOf(json["final"]),
-              (Keys{"unknown_voxels", "coverage", "unknown_near_objects", "unknown_in_boxes"}));
+    EXPECT_EQ(keysOf(json["final"]), (Keys{"unknown_voxels", "coverage", "unknown_near_objects",
+                                           "unknown_in_boxes", "box_unknown", "box_occupied"}));
     EXPECT_EQ(json["final"]["unknown_voxels"], randomRecord(4, 4, true).metrics.unknown_voxels);
   }
 }

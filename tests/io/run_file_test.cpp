@@ -1,7 +1,9 @@
 #include "io/run_file.h"
 
 #include <gmock/gmock.h>
+#include <zstd.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "io/error.h"
@@ -97,6 +99,74 @@ TEST(RunFile, TakesStepsInAscendingOrderOnly) {
   EXPECT_EQ(RunReader(folder / "a.vantage").steps(), (std::vector{2, 3}));
 }
 
+/// The bytes of a run that version 1 of the format holds, from before there was an octree.
+std::vector<char> runOfVersion1() {
+  std::ifstream file(VANTAGE_SOURCE_DIR "/tests/io/run_v1.vantage.zst", std::ios::binary);
+  const std::string packed(std::istreambuf_iterator<char>(file), {});
+  std::vector<char> bytes(ZSTD_getFrameContentSize(packed.data(), packed.size()));
+  EXPECT_EQ(ZSTD_decompress(bytes.data(), bytes.size(), packed.data(), packed.size()), bytes.size());
+  return bytes;
+}
+
+TEST(RunFile, OpensRunsOfTheFirstVersion) {
+  const TestFolder folder;
+  const std::vector<char> bytes = runOfVersion1();
+  std::ofstream(folder / "old.vantage", std::ios::binary).write(bytes.data(), std::ssize(bytes));
+  const RunReader run(folder / "old.vantage");
+  EXPECT_EQ(run.header().input, "box");
+  EXPECT_FALSE(run.header().octree);
+  EXPECT_EQ(run.stopReason(), "finished");
+  ASSERT_EQ(run.steps(), std::vector{1});
+  const StepRecord step = run.step(1);
+  ASSERT_TRUE(step.search && step.contours && step.changed_bricks);
+  EXPECT_EQ(step.search->counts.poses_scored, 1680u);
+  EXPECT_EQ(step.search->counts.poses_unreachable, 784u);
+  EXPECT_FALSE(step.hasView());
+  EXPECT_FALSE(step.utilities || step.box || step.changed_octree_bricks);
+  TsdfVolume volume(run.header().volume);
+  EXPECT_FALSE(run.advanceVolume(volume, 0, 1).empty());
+}
+
+TEST(RunFile, GivesBackTheOctreeAsItWasAtEveryStep) {
+  const TestFolder folder;
+  RunHeader header = randomHeader(7);
+  OccupancyOctree map = emptyOctree(header);
+  const auto readAll = [](const OccupancyOctree& octree) {
+    std::vector<OctreeBrick> bricks;
+    for (std::uint32_t b = 0; b < octree.bricks().total(); ++b) {
+      const BrickRange range = octree.bricks().range(b);
+      bricks.push_back({b, std::vector<float>((range.end - range.begin).prod())});
+      octree.readBrick(b, bricks.back().log_odds);
+    }
+    return bricks;
+  };
+  std::vector<std::vector<OctreeBrick>> maps;
+  {
+    RunWriter writer(folder / "a.vantage", header);
+    for (int step = 1; step <= 3; ++step) {
+      map.set({step, 2, 1}, 0.85f * static_cast<float>(step));
+      maps.push_back(readAll(map));
+      StepRecord record;
+      record.step = step;
+      record.changed_octree_bricks = std::make_shared<std::vector<OctreeBrick>>(maps.back());
+      writer.write(record);
+    }
+    writer.finish("steps done");
+  }
+  const auto same = [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  const RunReader run(folder / "a.vantage");
+  OccupancyOctree read = emptyOctree(run.header());
+  for (int step = 1; step <= 3; ++step) {
+    run.advanceOctree(read, step - 1, step);
+    const std::vector<OctreeBrick> bricks = readAll(read);
+    for (std::size_t b = 0; b < bricks.size(); ++b)
+      EXPECT_TRUE(std::ranges::equal(bricks[b].log_odds, maps[step - 1][b].log_odds, same))
+          << step << " " << b;
+  }
+  header.octree.reset();
+  EXPECT_THROW(emptyOctree(header), std::invalid_argument);
+}
+
 TEST(RunFile, IsOneFileOnceFinishedAndReadingMakesNoOther) {
   const TestFolder folder;
   writeRun(folder / "a.vantage", 5, 2);
@@ -162,6 +232,7 @@ TEST(RunFile, LeavesTheVolumeOutOnRequest) {
   const RunReader reader(folder / "a.vantage");
   StepRecord expected = randomRecord(31, 1);
   expected.changed_bricks.reset();
+  expected.changed_octree_bricks.reset();
   expectEqual(reader.step(1, RunDetail::NoVolume), expected);
 }
 

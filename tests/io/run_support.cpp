@@ -67,6 +67,11 @@ RunHeader randomHeader(std::uint64_t seed) {
   RunHeader header;
   random(header, header.truth);
   header.volume = testGrid();
+  header.octree.emplace();  // values in range: a reader checks them
+  header.octree->planner.coarse_levels = 3;
+  header.octree->map.voxel_size_m = 0.02;
+  header.octree->map.known_scene = true;
+  header.octree->object_box = Box(Eigen::Vector3d(-0.1, -0.1, 0.1), Eigen::Vector3d(0.1, 0.1, 0.2));
   header.truth.colors.resize(header.truth.triangles.size());
   for (auto& t : header.truth.triangles)
     for (std::uint32_t& corner : t) limit(corner, header.truth.vertices.size());
@@ -101,11 +106,31 @@ StepRecord randomRecord(std::uint64_t seed, int step, bool closing) {
   record.saliency = randomValue<Saliency>(random);
   record.point_labels = randomValue<std::vector<std::uint32_t>>(random);
   record.search = randomSearch(random, contours->points.size(), record.saliency->segments.size());
+  auto utilities = randomValue<UtilitySearch>(random);
+  for (std::uint32_t& n : utilities->ranking) limit(n, utilities->views.size());
+  record.utilities = utilities;
+  record.box = randomValue<BoxMetrics>(random);
+  auto octree = std::make_shared<std::vector<OctreeBrick>>();
+  for (std::uint32_t brick = 0; brick < 3; ++brick) {
+    octree->push_back({brick * 2, std::vector<float>(7 + 5 * brick, std::nanf(""))});
+    random(octree->back().log_odds[brick]);
+  }
+  record.changed_octree_bricks = octree;
   record.contours = contours;
   record.surface = surface;
   record.labels = labels;
   record.positions = positions;
   return record;
+}
+
+/// NaN, i.e. a voxel that is not stored, equals NaN.
+static bool octreeEqual(const StepRecord& a, const StepRecord& b) {
+  if (!a.changed_octree_bricks || !b.changed_octree_bricks)
+    return !a.changed_octree_bricks == !b.changed_octree_bricks;
+  return std::ranges::equal(*a.changed_octree_bricks, *b.changed_octree_bricks,
+                            [](const auto& x, const auto& y) {
+                              return x.brick == y.brick && bytesOf(x.log_odds) == bytesOf(y.log_odds);
+                            });
 }
 
 void expectEqual(const StepRecord& a, const StepRecord& b) {
@@ -123,6 +148,9 @@ void expectEqual(const StepRecord& a, const StepRecord& b) {
   EXPECT_EQ(bytesOf(a.point_labels), bytesOf(b.point_labels)) << "point labels";
   EXPECT_EQ(bytesOf(a.positions), bytesOf(b.positions)) << "positions";
   EXPECT_EQ(bytesOf(a.search), bytesOf(b.search)) << "search";
+  EXPECT_EQ(bytesOf(a.utilities), bytesOf(b.utilities)) << "utilities";
+  EXPECT_EQ(bytesOf(a.box), bytesOf(b.box)) << "box";
+  EXPECT_TRUE(octreeEqual(a, b)) << "octree bricks";
   ASSERT_EQ(a.changed_bricks == nullptr, b.changed_bricks == nullptr);
   if (!a.changed_bricks) return;
   ASSERT_EQ(a.changed_bricks->size(), b.changed_bricks->size());
@@ -144,11 +172,13 @@ bool equal(const StepRecord& a, const StepRecord& b) {
          bytesOf(a.surface) == bytesOf(b.surface) && bytesOf(a.labels) == bytesOf(b.labels) &&
          bytesOf(a.saliency) == bytesOf(b.saliency) && bytesOf(a.point_labels) == bytesOf(b.point_labels) &&
          bytesOf(a.positions) == bytesOf(b.positions) && bytesOf(a.search) == bytesOf(b.search) &&
-         !a.changed_bricks == !b.changed_bricks && (!a.changed_bricks || bricksEqual());
+         bytesOf(a.utilities) == bytesOf(b.utilities) && bytesOf(a.box) == bytesOf(b.box) &&
+         octreeEqual(a, b) && !a.changed_bricks == !b.changed_bricks && (!a.changed_bricks || bricksEqual());
 }
 
 bool equal(const RunHeader& a, const RunHeader& b) {
-  return bytesOf(a) == bytesOf(b) && bytesOf(a.truth) == bytesOf(b.truth);
+  return bytesOf(a) == bytesOf(b) && bytesOf(a.truth) == bytesOf(b.truth) &&
+         bytesOf(a.octree) == bytesOf(b.octree);
 }
 
 void writeRun(const std::filesystem::path& path, std::uint64_t seed, int steps) {

@@ -1,0 +1,89 @@
+// The grid of a run never drifts from the octree that it stands for: every tenth iteration of table-top
+// reconstructions (evaluation.md, A1) is cast again through the live tree, node by node.
+#include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
+
+#include <string>
+#include <vector>
+
+#include "core/exploration/explorer.h"
+#include "hardware/simulated_depth_camera.h"
+#include "hardware/simulated_robot.h"
+#include "io/config_file.h"
+#include "io/scene_file.h"
+#include "io/scene_truth.h"
+#include "tests/support/octree_caster.h"
+
+namespace vantage {
+namespace {
+
+struct Check {
+  std::string planner;
+  int coarse_levels;
+  const char* child_start;
+  std::size_t every;  ///< view that is cast again: a full-resolution cast through the tree takes seconds
+};
+
+/// Counts over all runs of this test.
+struct Progress {
+  int iterations = 0;
+  int compared_iterations = 0;
+  int compared_views = 0;
+};
+
+void compare(const StepRecord& record, const Explorer& explorer, const ExplorationConfig& config,
+             const Check& check, Progress& progress) {
+  const RayTree tree(config.hierarchical.sensor, config.octree.voxel_size_m,
+                     config.hierarchical.coarse_levels);
+  HierarchicalQuery query;
+  query.bounds = config.objectBox();
+  query.start = config.hierarchical.child_start;
+  const int levels = check.planner == "uniform" ? 0 : check.coarse_levels;
+  std::vector<const ViewUtility*> views;
+  std::size_t cast = 0;
+  for (const ViewUtility& view : record.utilities->views)
+    if (view.rejection != ViewRejection::Position && cast++ % check.every == 0) views.push_back(&view);
+  std::vector<RayCounts> expected(views.size());
+  tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t n) {
+    expected[n] =
+        testing::castThroughOctree(*explorer.world().octree(), tree, levels, views[n]->T_world_camera, query);
+  });
+  for (std::size_t n = 0; n < views.size(); ++n)
+    EXPECT_EQ(views[n]->rays, expected[n])
+        << check.planner << " step " << record.step << " view " << views[n]->id;
+  ++progress.compared_iterations;
+  progress.compared_views += static_cast<int>(views.size());
+}
+
+void reconstruct(const char* name, const Check& check, Progress& progress) {
+  const SceneFile scene = loadScene(name);
+  Settings settings;
+  applyToml(settings, scene.text, name, sceneGeometryKeys());
+  applyAssignment(settings, "exploration.planner=" + check.planner);
+  applyAssignment(settings, "rays.coarse_levels=" + std::to_string(check.coarse_levels));
+  applyAssignment(settings, std::string("rays.child_start=") + check.child_start);
+  settings.exploration.steps = 10;
+  settings.validate();
+  SimulatedDepthCamera camera(scene, {settings.camera, settings.sensor, settings.exploration.seed});
+  FreeFlyer robot(settings.free_flyer, initialScanPoses(settings.exploration.scan).back());
+  const SceneTruth truth(scene);
+  Explorer explorer(settings.exploration, camera, robot,
+                    settings.exploration.octree.known_scene ? &truth : nullptr);
+  explorer.addObserver([&](const std::shared_ptr<const StepRecord>& record) {
+    if (record->stage != Stage::Evaluation) return;
+    if (progress.iterations++ % 10 == 0) compare(*record, explorer, settings.exploration, check, progress);
+  });
+  explorer.run({});
+}
+
+TEST(LiveOctree, GivesTheCountsOfEveryTenthIteration) {
+  Progress progress;
+  reconstruct("a1_compact", {"hierarchical", 2, "resume", 8}, progress);
+  reconstruct("a1_elongated", {"hierarchical", 3, "restart", 16}, progress);
+  reconstruct("a1_compact", {"uniform", 2, "resume", 128}, progress);
+  EXPECT_GE(progress.compared_iterations, 3);
+  EXPECT_GE(progress.compared_views, 40);
+}
+
+}  // namespace
+}  // namespace vantage
