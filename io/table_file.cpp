@@ -254,4 +254,21 @@ void writePlan(const std::string& path, const std::vector<PlanRow>& rows) {
   table.save(path);
 }
 
+void writeUtilities(const std::string& path, const UtilitySearch& search) {
+  Table table(
+      "id,x_m,y_m,z_m,qx,qy,qz,qw,reject,unknown,occupied,surface,distance,utility,rays,visited,reachability,"
+      "chosen");
+  const ViewUtility* chosen = chosenUtility(search);
+  const auto add = [&](const ViewUtility& view) {
+    table.cell(view.id).pose(view.T_world_camera).cell(tokenOf(view.rejection));
+    table.cell(view.unknown).cell(view.occupied).cell(view.surface).cell(view.distance).cell(view.utility);
+    table.cell(view.rays.rays_cast).cell(view.rays.visited).cell(tokenOf(view.reachability));
+    table.cell(&view == chosen ? 1 : 0).endRow();
+  };
+  for (const std::uint32_t n : search.ranking) add(search.views[n]);
+  for (const ViewUtility& view : search.views)
+    if (view.rejection != ViewRejection::None) add(view);
+  table.save(path);
+}
+
 }  // namespace vantage

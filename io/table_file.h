@@ -8,6 +8,7 @@
 #include "core/geometry/pose.h"
 #include "core/perception/contours.h"
 #include "core/perception/saliency.h"
+#include "core/planners/hierarchical_planner.h"
 #include "io/error.h"
 
 namespace vantage {
@@ -62,5 +63,9 @@ struct PlanRow {
 
 /// `id,x_m,y_m,z_m,qx,qy,qz,qw,group,segment,saliency,gain,reachability,chosen`
 void writePlan(const std::string& path, const std::vector<PlanRow>& rows);
+
+/// The plan of the hierarchical planner: surviving views by decreasing utility, then the rejected ones.
+/// `id,x_m,y_m,z_m,qx,qy,qz,qw,reject,unknown,occupied,surface,distance,utility,rays,visited,reachability,chosen`
+void writeUtilities(const std::string& path, const UtilitySearch& search);
 
 }  // namespace vantage

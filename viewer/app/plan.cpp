@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "core/exploration/plan_view.h"
+#include "core/geometry/check.h"
 #include "io/json_summary.h"
 #include "io/table_file.h"
 #include "viewer/app/command.h"
@@ -53,42 +55,105 @@ std::vector<PlanRow> rankedViews(const StepRecord& record, const ContourViewConf
   return rows;
 }
 
+/// The planner that is asked for, else that of the recorded step, else the one that works on the map.
+PlannerKind plannerFor(const LoadedMap& map, const PlanOptions& options) {
+  const PlannerKind configured = map.settings.exploration.plannerOf(map.step);
+  if (!options.planner.empty() || map.record) return configured;
+  return map.hasVolume() ? configured : PlannerKind::Hierarchical;
+}
+
+void requireMapFor(PlannerKind kind, const LoadedMap& map, const PlanOptions& options) {
+  if (usesOctree(kind) ? map.octree.has_value() : map.hasVolume()) return;
+  throw InputError(options.map,
+                   usesOctree(kind)
+                       ? "holds no octree, which this planner works on; give a .bt or .ot file or a run "
+                         "of the hierarchical planner"
+                       : "holds no TSDF, which this planner works on; give a .vti file or a run of the "
+                         "contour planner");
+}
+
+using Publish = std::function<void(Stage)>;
+
+void planContour(const LoadedMap& map, PlannerKind kind, StepRecord& record, MotionPlan& reported,
+                 const Publish& publish, const RunControl& control) {
+  const ExplorationConfig& config = map.settings.exploration;
+  ContourPlannerConfig planner = config.contour;
+  planner.segment_by_segment = kind == PlannerKind::Contour;
+  const StateGrid states = makeStateGrid(map.volume);
+  const CollisionGrid collision(states, map.settings.free_flyer.cell_m,
+                                map.settings.free_flyer.body_radius_m);
+  const PlanViewInput input{.volume = map.volume,
+                            .states = states,
+                            .camera = map.settings.camera,
+                            .workspace = config.workspace,
+                            .config = planner,
+                            .executed = map.exclusions.executed,
+                            .disappointing = map.exclusions.disappointing};
+  record.metrics.unknown_voxels = states.count(VoxelState::Unknown, config.workspace);
+  planView(record, input, makeReach(collision, map, reported), publish, control);
+}
+
+void planOctree(const LoadedMap& map, PlannerKind kind, StepRecord& record, MotionPlan& reported,
+                const Publish& publish, const RunControl& control) {
+  const ExplorationConfig& config = map.settings.exploration;
+  HierarchicalPlannerConfig planner = config.hierarchical;
+  if (kind == PlannerKind::Uniform) planner.coarse_levels = 0;
+  const double voxel_m = map.octree->geometry().voxel_size_m;
+  requireInRange("rays.coarse_levels", planner.coarse_levels, 0, maxCoarseLevels(planner.sensor, voxel_m));
+  const StatePyramid pyramid(*map.octree, planner.coarse_levels);
+  const RayTree tree(planner.sensor, voxel_m, planner.coarse_levels);
+  const CollisionGrid collision(pyramid.finest(), map.settings.free_flyer.cell_m,
+                                map.settings.free_flyer.body_radius_m);
+  const Box object_box = map.octree->objectBox(), bounds = pyramid.finest().geometry().bounds();
+  const bool recorded = map.record && !map.record->scan.empty();
+  const Pose current = recorded ? map.record->scan.back().T_world_camera
+                                : makePose(object_box.center(), Eigen::Quaterniond::Identity());
+  if (!recorded) planner.rotation_weight_m_per_rad = 0.0;  // no current pose: turning costs nothing
+  const PlanUtilityInput input{.pyramid = pyramid,
+                               .tree = tree,
+                               .object_box = object_box,
+                               .workspace = bounds,
+                               .current = current,
+                               .config = planner,
+                               .executed = map.exclusions.executed,
+                               .seed = pathSeed(config.seed, record.step, 0)};
+  record.metrics.unknown_voxels = pyramid.finest().count(VoxelState::Unknown, object_box);
+  planUtility(record, input, makeReach(collision, map, reported), publish, control);
+}
+
 int plan(const GlobalOptions& global, const PlanOptions& options) {
   requireDistinctFiles({{"MAP", options.map}, {"-o", options.output}, {"--json", global.json}});
-  LoadedMap map = loadMap(global, options.map);
+  LoadedMap map = loadMap(global, options.map, MapNeed::Either);
   Settings& settings = map.settings;
   if (!options.planner.empty())
     applyAssignment(settings, fmt::format("exploration.planner={}", options.planner), "--planner");
   settings.validate();
-  const StateGrid states = makeStateGrid(map.volume);
-  const CollisionGrid collision(states, settings.free_flyer.cell_m, settings.free_flyer.body_radius_m);
+  const PlannerKind kind = plannerFor(map, options);
+  requireMapFor(kind, map, options);
 
   StepRecord record;
   record.step = map.step;
-  record.planner = settings.planner();
-  record.metrics.unknown_voxels = states.count(VoxelState::Unknown, settings.exploration.workspace);
-  const PlanViewInput input{.volume = map.volume,
-                            .states = states,
-                            .camera = settings.camera,
-                            .workspace = settings.exploration.workspace,
-                            .config = settings.exploration.contour,
-                            .executed = map.exclusions.executed,
-                            .disappointing = map.exclusions.disappointing};
+  record.planner = toString(kind);
   MotionPlan reported;
   Console console(global);
-  planView(
-      record, input, makeReach(collision, map, reported),
-      [&](Stage stage) {
-        record.stage = stage;
-        logDetail(stageText(record));
-      },
-      console.control());
+  const Publish publish = [&](Stage stage) {
+    record.stage = stage;
+    logDetail(stageText(record));
+  };
+  if (usesOctree(kind))
+    planOctree(map, kind, record, reported, publish, console.control());
+  else
+    planContour(map, kind, record, reported, publish, console.control());
   if (!settings.exploration.enforce_reachability) reportMotion(record, reported);
   record.stage = Stage::Done;
   console.clear();
   if (options.output != "-" && global.json != "-") say(global, stepText(record));
-  if (!options.output.empty())
-    writePlan(options.output, rankedViews(record, settings.exploration.contour.views));
+  if (!options.output.empty()) {
+    if (record.utilities)
+      writeUtilities(options.output, *record.utilities);
+    else
+      writePlan(options.output, rankedViews(record, settings.exploration.contour.views));
+  }
   writeJson(global.json, nlohmann::ordered_json::parse(stepJsonText(record)));
   return 0;
 }
@@ -98,7 +163,9 @@ int plan(const GlobalOptions& global, const PlanOptions& options) {
 void addPlan(CLI::App& app, const GlobalOptions& global, Action& action) {
   auto o = std::make_shared<PlanOptions>();
   CLI::App* command = app.add_subcommand("plan", "One next best view for a map");
-  command->add_option("map", o->map, "TSDF (.vti) or RUN#STEP")->required()->type_name("MAP");
+  command->add_option("map", o->map, "TSDF (.vti), octree (.bt, .ot) or RUN#STEP")
+      ->required()
+      ->type_name("MAP");
   command->add_option("--planner", o->planner, "How the view is chosen")->check(isPlanner());
   command
       ->add_option("-o,--output", o->output, "All scored views in the order in which they were ranked, CSV")
