@@ -80,7 +80,7 @@ std::vector<ContactSheet::Column> columnsOf(const Pair& runs, const ComparisonRe
     Recipe recipe = recipeFrom(name);
     for (const std::string& assignment : request.style) setStyle(recipe.view.style, assignment);
     for (const auto& run : runs)
-      columns.push_back({recipe.title + ": " + run->name() + ", " + run->header().planner, recipe});
+      columns.push_back({recipe.title, recipe, run->name() + "  ·  " + run->header().planner});
   }
   return columns;
 }

@@ -1,6 +1,7 @@
 #include "snapshots/contact_sheet.h"
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 
 #include "snapshots/step_maps.h"
@@ -12,7 +13,7 @@ namespace {
 
 // Pixels.
 constexpr int kTileWidth = 480, kTileHeight = 330, kCaption = 124, kGap = 14, kMargin = 20;
-constexpr int kHead = 96, kRowHead = 74, kLegend = 310;
+constexpr int kHead = 104, kRowHead = 74, kLegendLine = 27;
 constexpr int kInsetWidth = 118, kScaleWidth = 170;
 
 TextStyle textOf(int size_px, bool bold = false, Rgb color = palette::kInk) {
@@ -39,7 +40,7 @@ void placeInset(RgbImage& image, const RgbImage& inset, int width) {
 
 std::vector<ContactSheet::Column> columnsOf(const std::vector<Recipe>& recipes) {
   std::vector<ContactSheet::Column> columns;
-  for (const Recipe& recipe : recipes) columns.push_back({recipe.title, recipe});
+  for (const Recipe& recipe : recipes) columns.push_back({recipe.title, recipe, ""});
   return columns;
 }
 
@@ -82,16 +83,30 @@ void ContactSheet::setTile(std::size_t column, Scene& scene, OffscreenRenderer& 
   }
 }
 
+int ContactSheet::legendHeight() const {
+  std::size_t most = 0;
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    std::set<std::string> texts;
+    for (const Row& row : rows_) {
+      for (const LegendEntry& entry : row.tiles[c].legend) texts.insert(entry.text);
+    }
+    most = std::max(most, texts.size());
+  }
+  return static_cast<int>(most + 1) * kLegendLine;  // one of them may take two lines
+}
+
 RgbImage ContactSheet::draw(OffscreenRenderer& renderer) const {
   const int columns = static_cast<int>(columns_.size());
   const int width = kMargin * 2 + kRowHead + columns * kTileWidth + (columns - 1) * kGap;
   const int row_height = kTileHeight + kCaption;
-  const int height = kHead + rows() * row_height + kLegend + kMargin;
+  const int legend_height = legendHeight();
+  const int height = kHead + rows() * row_height + legend_height + kMargin;
   Page page(width, height);
   page.text(kMargin, 18, title_, textOf(28, true));
   for (int c = 0; c < columns; ++c) {
     const double x = kMargin + kRowHead + c * (kTileWidth + kGap);
-    page.text(x, 64, columns_[c].heading, textOf(19, true));
+    page.text(x, columns_[c].note.empty() ? 66 : 58, columns_[c].heading, textOf(18, true));
+    page.text(x, 80, columns_[c].note, textOf(14, false, palette::kFaintInk));
     // The legend of a column holds what any of its tiles shows.
     LayerNotes legend;
     for (int r = 0; r < rows(); ++r) {
@@ -110,7 +125,8 @@ RgbImage ContactSheet::draw(OffscreenRenderer& renderer) const {
     }
     const LayerNotes* contents[] = {&legend};
     const double legend_y = kHead + rows() * row_height + 10.0;
-    drawLegend(page, {x, legend_y, static_cast<double>(kTileWidth), kLegend}, contents, 0.95);
+    drawLegend(page, {x, legend_y, static_cast<double>(kTileWidth), static_cast<double>(legend_height)},
+               contents, 0.95);
   }
   for (int r = 0; r < rows(); ++r) {
     const double y = kHead + r * row_height;

@@ -17,6 +17,7 @@ class ContactSheet {
   struct Column {
     std::string heading;
     Recipe recipe;
+    std::string note = {};  ///< under the heading, e.g. the run
   };
 
   /// \param title above all; \param columns non-empty.
@@ -53,6 +54,8 @@ class ContactSheet {
     std::string label;
     std::vector<Tile> tiles;
   };
+
+  int legendHeight() const;
 
   std::string title_;
   std::vector<Column> columns_;

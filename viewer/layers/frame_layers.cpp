@@ -17,26 +17,25 @@ LayerContent workspaceLayer(const SceneFrame& frame, const LayerStyle& style) {
   LayerContent content;
   const Box& box = frame.header.workspace;
   if (box.isEmpty()) return content;
+  if (onOctree(frame) && boxesAgree(box, frame.header.octree->object_box))
+    return objectBoxLayer(frame, style);
   LineSet edges;
   addBox(edges, box);
   content.props.push_back(lineActor(edges, palette::kRule, 1.2 * style.line_scale));
-  const bool objects_too = onOctree(frame) && boxesAgree(box, frame.header.octree->object_box);
-  content.legend.push_back({LegendEntry::Mark::Line, palette::kRule, 1.0,
-                            objects_too ? "workspace, also the object's box" : "workspace"});
+  content.legend.push_back({LegendEntry::Mark::Line, palette::kRule, 1.0, "workspace"});
   return content;
 }
 
 LayerContent objectBoxLayer(const SceneFrame& frame, const LayerStyle& style) {
   LayerContent content;
-  if (!onOctree(frame)) return content;
+  if (!onOctree(frame) || frame.header.octree->object_box.isEmpty()) return content;
   const Box& box = frame.header.octree->object_box;
-  if (box.isEmpty() || boxesAgree(box, frame.header.workspace))
-    return content;  // the workspace's frame shows it
   LineSet edges;
   addBox(edges, box);
   content.props.push_back(lineActor(edges, palette::kObjectBox, 1.6 * style.line_scale));
-  content.legend.push_back(
-      {LegendEntry::Mark::Line, palette::kObjectBox, 1.0, "object's box: what is to be seen"});
+  content.legend.push_back({LegendEntry::Mark::Line, palette::kObjectBox, 1.0,
+                            boxesAgree(box, frame.header.workspace) ? "object's box, also the workspace"
+                                                                    : "object's box: what is to be seen"});
   return content;
 }
 

@@ -94,6 +94,17 @@ std::string edgeText(const StatePyramid& pyramid, int level) {
   return lengthText(pyramid.level(level).geometry().voxel_size_m);
 }
 
+/// The faces whose middle lies in a box, and the others.
+std::pair<FaceMesh, FaceMesh> splitFaces(const FaceMesh& faces, const Box& box) {
+  std::pair<FaceMesh, FaceMesh> parts;
+  parts.first.corners = parts.second.corners = faces.corners;
+  for (const auto& quad : faces.quads) {
+    const Eigen::Vector3f middle = (faces.corners[quad[0]] + faces.corners[quad[2]]) / 2.0f;
+    (box.contains(middle.cast<double>()) ? parts.first : parts.second).quads.push_back(quad);
+  }
+  return parts;
+}
+
 }  // namespace
 
 LayerContent octreeLayer(const SceneFrame& frame, const LayerStyle& style) {
@@ -111,8 +122,13 @@ LayerContent octreeLayer(const SceneFrame& frame, const LayerStyle& style) {
       object.isEmpty() ? object : Box(object.min().array() - half_m, object.max().array() + half_m);
 
   const FaceMesh solid = extractFaces(pyramid.finest(), VoxelState::Occupied, FaceRule::TowardOther, clip);
-  if (!solid.empty()) {
-    content.props.push_back(faceActor(solid, palette::kOccupied, 1.0));
+  const auto [inside, around] = splitFaces(solid, node_clip);
+  if (!around.empty()) {
+    content.props.push_back(faceActor(around, palette::kAround, 1.0));
+    content.legend.push_back({Mark::Fill, palette::kAround, 1.0, "occupied, outside the object's box"});
+  }
+  if (!inside.empty()) {
+    content.props.push_back(faceActor(inside, palette::kOccupied, 1.0));
     content.legend.push_back(
         {Mark::Fill, palette::kOccupied, 1.0, "occupied voxels, " + edgeText(pyramid, 0)});
   }
@@ -121,7 +137,7 @@ LayerContent octreeLayer(const SceneFrame& frame, const LayerStyle& style) {
     addNodes(content, cubes, palette::kNode, 0.10, palette::kNode, 1.2 * style.line_scale, 0.7);
     if (!cubes.empty())
       content.legend.push_back({Mark::Fill, palette::kNode, 0.25,
-                                "occupied nodes, " + edgeText(pyramid, level) + ": anything in them is"});
+                                "nodes of " + edgeText(pyramid, level) + " with anything occupied in them"});
   }
   const FaceMesh frontier = extractFaces(nodes, VoxelState::Unknown, FaceRule::TowardFree, node_clip);
   if (frontier.empty()) return content;
@@ -173,7 +189,7 @@ LayerContent hitVoxelsLayer(const SceneFrame& frame, const LayerStyle& style) {
   if (!refined.empty()) {
     addNodes(content, refined, palette::kRayRefined, 0.0, palette::kRayRefined, 1.0 * style.line_scale, 0.4);
     content.legend.push_back(
-        {Mark::Fill, palette::kRayRefined, 0.12, "refined node, " + edgeText(pyramid, start)});
+        {Mark::Fill, palette::kRayRefined, 0.25, "refined node, " + edgeText(pyramid, start)});
   }
   bool any_unknown = false;
   for (int level = 0; level <= start; ++level) {

@@ -208,6 +208,27 @@ void addSphere(LayerContent& content, const SceneFrame& frame, const LayerStyle&
   }
 }
 
+/// Short frusta of the best views in the colours of the scale; the chosen one stands out.
+void addBestFrusta(LayerContent& content, const SceneFrame& frame, const LayerStyle& style) {
+  const UtilitySearch& search = *frame.record.utilities;
+  const PinholeCamera camera = viewCamera(frame);
+  LineSet lines;
+  int drawn = 0;
+  for (const std::uint32_t index : search.ranking) {
+    const ViewUtility& view = search.views[index];
+    if (fallenOf(view) != Fallen::No || drawn++ >= style.ranked_views) continue;
+    addFrustum(lines, camera, view.T_world_camera, style.frustum_length_m / 2);
+    lines.colors.resize(lines.pieces.size(), colorAt(ColorMap::Viridis, factorOf(view, style.utility_factor) /
+                                                                            content.scale->high));
+  }
+  if (!lines.pieces.empty()) content.props.push_back(lineActor(lines, palette::kInk, 1.5 * style.line_scale));
+  if (!search.chosen) return;
+  LineSet chosen;
+  addFrustum(chosen, camera, search.chosen->T_world_camera, style.frustum_length_m);
+  content.props.push_back(lineActor(chosen, palette::kChosen, 3.5 * style.line_scale));
+  content.legend.push_back({Mark::Line, palette::kChosen, 1.0, "chosen view"});
+}
+
 /// Candidates anywhere: dots in colours, frusta for the best, marks for those that fell out.
 void addScattered(LayerContent& content, const SceneFrame& frame, const LayerStyle& style) {
   const UtilitySearch& search = *frame.record.utilities;
@@ -237,22 +258,24 @@ void addScattered(LayerContent& content, const SceneFrame& frame, const LayerSty
     }
   }
   const double line = style.line_scale;
+  addBestFrusta(content, frame, style);
   if (!eyes.empty()) {
     content.props.push_back(dotActor(eyes, colors, palette::kInk, 7.0 * line));
-    content.legend.push_back({Mark::Dot, colorAt(ColorMap::Viridis, 0.5), 1.0, "candidate views that count"});
+    content.legend.push_back(
+        {Mark::Dot, colorAt(ColorMap::Viridis, 0.5), 1.0, "candidate views, with frusta of the best"});
   }
   if (!few_known.empty()) {
     content.props.push_back(dotActor(few_known, {}, palette::kRule, 2.5 * line));
     content.legend.push_back({Mark::Dot, palette::kRule, 1.0, "rejected: too little known surface in view"});
   }
   if (!crosses.pieces.empty()) {
-    content.props.push_back(lineActor(crosses, palette::kRejectedPosition, 1.0 * line));
+    content.props.push_back(lineActor(crosses, palette::kUnreachable, 1.2 * line));
     content.legend.push_back(
-        {Mark::Cross, palette::kRejectedPosition, 1.0, "rejected: the sensor does not fit there"});
+        {Mark::Cross, palette::kUnreachable, 1.0, "rejected: the sensor does not fit there"});
   }
   if (!diamonds.pieces.empty()) {
     content.props.push_back(lineActor(diamonds, palette::kUnreachable, 1.5 * line));
-    content.legend.push_back({Mark::Diamond, palette::kUnreachable, 1.0, "better, but cannot be reached"});
+    content.legend.push_back({Mark::Diamond, palette::kPaper, 1.0, "better, but cannot be reached"});
   }
 }
 
