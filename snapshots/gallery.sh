@@ -10,3 +10,8 @@ mkdir -p snapshots/gallery
 for recipe in segments views; do
   "$vantage" snapshot "$work/tabletop.vantage" --step 1 --recipe "$recipe" -o "snapshots/gallery/$recipe.png" --quiet
 done
+"$vantage" explore tabletop --planner hierarchical --steps 1 -o "$work/octree.vantage" --quiet
+for recipe in octree rays utility; do
+  "$vantage" snapshot "$work/octree.vantage" --step 1 --recipe "$recipe" --size 960x600 \
+    -o "snapshots/gallery/$recipe.png" --quiet
+done

@@ -38,7 +38,7 @@ inline constexpr Rgb kSensor = rgb(40, 44, 52);
 inline constexpr Rgb kUnreachable = rgb(70, 70, 74);
 inline constexpr Rgb kCandidate = rgb(90, 120, 160);
 inline constexpr Rgb kObjectBox = rgb(0, 112, 96);
-inline constexpr Rgb kAround = rgb(206, 209, 213);
+inline constexpr Rgb kAround = rgb(224, 222, 217);
 inline constexpr Rgb kNode = rgb(60, 78, 104);
 inline constexpr Rgb kUnknownEdge = rgb(190, 110, 0);
 // Fates of rays.

@@ -21,7 +21,7 @@ namespace {
 
 struct SnapshotOptions {
   std::string run, step = "all", size = "1280x800", output;
-  std::vector<std::string> recipes;
+  std::vector<std::string> recipes, style;
 };
 
 /// "WxH" in pixels.
@@ -48,15 +48,13 @@ std::optional<int> parseStep(const std::string& text) {
   return static_cast<int>(step);
 }
 
-/// Names the recipes, those made by default first.
 std::string recipeHelp() {
-  const std::vector<std::string> defaults = defaultRecipes();
-  std::vector<std::string> more;
-  for (const std::string& name : recipeNames()) {
-    if (std::find(defaults.begin(), defaults.end(), name) == defaults.end()) more.push_back(name);
-  }
-  return fmt::format("Which picture, repeatable: {} (these by default), {}, or a TOML file of one's own",
-                     fmt::join(defaults, ", "), fmt::join(more, ", "));
+  return fmt::format(
+      "Which picture, repeatable: {}, or a TOML file of one's own; default: {} of steps planned on contours, "
+      "{} of "
+      "steps planned on the octree",
+      fmt::join(recipeNames(), ", "), fmt::join(defaultRecipes(PlannerKind::Contour), ", "),
+      fmt::join(defaultRecipes(PlannerKind::Hierarchical), ", "));
 }
 
 int snapshot(const GlobalOptions& global, const SnapshotOptions& options) {
@@ -69,6 +67,7 @@ int snapshot(const GlobalOptions& global, const SnapshotOptions& options) {
   SnapshotRequest request;
   if (const auto step = parseStep(options.step)) request.step = *step;
   request.recipes = options.recipes;
+  request.style = options.style;
   std::tie(request.width, request.height) = parseSize(options.size);
   request.output = options.output;
   Console console(global);
@@ -93,6 +92,12 @@ void addSnapshot(CLI::App& app, const GlobalOptions& global, Action& action) {
       ->type_name("N|end|all");
   command->add_option("--recipe", options->recipes, recipeHelp())
       ->type_name("NAME|FILE")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--style", options->style,
+                   "How it is drawn, repeatable, keys as in a recipe file: octree_level=3, view_id=17, "
+                   "coarse_rays=1000, utility_factor=distance, unknown_opacity=0.1, ...")
+      ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command->add_option("--size", options->size, "Pixels; default: 1280x800")->type_name("WxH");
   command

@@ -136,7 +136,7 @@ LayerContent octreeLayer(const SceneFrame& frame, const LayerStyle& style) {
     const FaceMesh cubes = extractFaces(nodes, VoxelState::Occupied, FaceRule::TowardOther, node_clip);
     addNodes(content, cubes, palette::kNode, 0.10, palette::kNode, 1.2 * style.line_scale, 0.7);
     if (!cubes.empty())
-      content.legend.push_back({Mark::Fill, palette::kNode, 0.25,
+      content.legend.push_back({Mark::Fill, palette::kNode, 0.4,
                                 "nodes of " + edgeText(pyramid, level) + " with anything occupied in them"});
   }
   const FaceMesh frontier = extractFaces(nodes, VoxelState::Unknown, FaceRule::TowardFree, node_clip);
@@ -157,6 +157,7 @@ LayerContent coarseRaysLayer(const SceneFrame& frame, const LayerStyle& style) {
   addRays(content, frame, style, *trace, drawn.coarse);
   content.props.push_back(
       dotActor({trace->view->T_world_camera.translation()}, {}, palette::kChosen, 12.0 * style.line_scale));
+  content.legend.push_back({Mark::Dot, palette::kChosen, 1.0, "eye of the view"});
   content.must_see.push_back(trace->view->T_world_camera.translation());
   return content;
 }
