@@ -64,9 +64,9 @@ std::optional<Boxes> readBoxes(const fs::path& path) {
 }
 
 std::string textOf(const Boxes& boxes) {
-  const auto line = [](const std::string& key, const Eigen::Vector3d& p) {
-    return key + " = [" + shortestNumber(p.x()) + ", " + shortestNumber(p.y()) + ", " +
-           shortestNumber(p.z()) + "]\n";
+  const auto number = [](double x) { return shortestNumber(std::round(x * 1e9) / 1e9); };
+  const auto line = [&](const std::string& key, const Eigen::Vector3d& p) {
+    return key + " = [" + number(p.x()) + ", " + number(p.y()) + ", " + number(p.z()) + "]\n";
   };
   std::string text =
       "# Space that the octree beside this file maps, and the box of the object in it, metres. What is not\n"

@@ -1,4 +1,4 @@
-#include <tbb/blocked_range.h>
+#include <tbb/blocked_range2d.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -170,12 +170,17 @@ class OccupancyOctree::Scan {
   /// Free space first, then hits, which win.
   void markVoxels() {
     std::vector<std::size_t> hits(depth_.depth_m.size(), kNoHit);
-    const tbb::blocked_range<int> rows(0, depth_.height, 4);
-    tbb::parallel_for(rows, [&](const tbb::blocked_range<int>& range) {
-      for (int v = range.begin(); v < range.end(); ++v)
-        for (int u = 0; u < depth_.width; ++u)
-          hits[static_cast<std::size_t>(v) * depth_.width + u] = passPixel(u, v);
-    });
+    // In tiles: rays beside and below each other pass the same cache lines.
+    constexpr int kTile = 16;
+    const tbb::blocked_range2d<int> tiles(0, depth_.height, kTile, 0, depth_.width, kTile);
+    tbb::parallel_for(
+        tiles,
+        [&](const tbb::blocked_range2d<int>& tile) {
+          for (int v = tile.rows().begin(); v < tile.rows().end(); ++v)
+            for (int u = tile.cols().begin(); u < tile.cols().end(); ++u)
+              hits[static_cast<std::size_t>(v) * depth_.width + u] = passPixel(u, v);
+        },
+        tbb::simple_partitioner());
     for (const std::size_t at : hits)
       if (at != kNoHit) d_.marks[at] |= Data::kHit;
   }

@@ -60,7 +60,10 @@ Json describeOctree(const OccupancyOctree& map) {
     for (const float value : values) ++states[static_cast<std::size_t>(band.label(value))];
   }
   const double voxel_m3 = std::pow(g.voxel_size_m, 3);
-  const auto corner = [](const Eigen::Vector3d& p) { return Json{p.x(), p.y(), p.z()}; };
+  const auto rounded = [](double x) { return std::round(x * 1e9) / 1e9; };
+  const auto corner = [&](const Eigen::Vector3d& p) {
+    return Json{rounded(p.x()), rounded(p.y()), rounded(p.z())};
+  };
   return {{"kind", "octree"},
           {"voxels", {g.size.x(), g.size.y(), g.size.z()}},
           {"voxel_size_m", g.voxel_size_m},
@@ -71,8 +74,8 @@ Json describeOctree(const OccupancyOctree& map) {
           {"unknown", states[0]},
           {"free", states[1]},
           {"occupied", states[2]},
-          {"free_m3", static_cast<double>(states[1]) * voxel_m3},
-          {"occupied_m3", static_cast<double>(states[2]) * voxel_m3},
+          {"free_m3", rounded(static_cast<double>(states[1]) * voxel_m3)},
+          {"occupied_m3", rounded(static_cast<double>(states[2]) * voxel_m3)},
           {"nodes", map.nodeCount()}};
 }
 
