@@ -6,3 +6,5 @@ pkg_check_modules(OCTOMAP REQUIRED IMPORTED_TARGET octomap)
 find_package(OpenMP REQUIRED)  # OctoMap's own threads
 vantage_benchmark(octree_benchmark octree_benchmark.cpp benchmark_main.cpp
   LIBS vantage_volume TBB::tbb PkgConfig::OCTOMAP OpenMP::OpenMP_CXX)
+vantage_benchmark(rays_benchmark rays_benchmark.cpp benchmark_main.cpp ${CMAKE_SOURCE_DIR}/tests/support/reference_room.cpp
+  LIBS vantage_views TBB::tbb PkgConfig::OCTOMAP)
