@@ -33,6 +33,9 @@ struct OccupancyOctree::Data {
   }
   /// Derives the marks from the tree.
   void settle();
+  /// One value for a box of the grid; NaN = not stored.
+  void fill(const octree::KeyBox& box, float log_odds);
+  void setMarks(const octree::KeyBox& box, std::uint8_t value);
 
   /// Replaces the values of a block's voxels in the grid by `next(value, linear index)`; NaN = not stored.
   /// \return voxels that changed

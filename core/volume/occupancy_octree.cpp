@@ -136,13 +136,24 @@ void OccupancyOctree::Data::settle() {
     throwDoesNotFit("occupancy octree", geometry, 1);
   }
   nodes.visit(keys(), [&](const KeyBox& part, float log_odds) {
-    if (!settled(log_odds)) return;
-    const Eigen::Vector3i from = part.begin - first_key, to = part.end - first_key;
-    for (int k = from.z(); k < to.z(); ++k)
-      for (int j = from.y(); j < to.y(); ++j)
-        std::fill_n(marks.begin() + static_cast<std::ptrdiff_t>(geometry.index(from.x(), j, k)),
-                    to.x() - from.x(), std::uint8_t{kSettled});
+    if (settled(log_odds)) setMarks(part, kSettled);
   });
+}
+
+void OccupancyOctree::Data::fill(const KeyBox& box, float log_odds) {
+  if (std::isnan(log_odds))
+    nodes.remove(box);
+  else
+    nodes.fill(box, log_odds);
+  setMarks(box, settled(log_odds));
+}
+
+void OccupancyOctree::Data::setMarks(const KeyBox& box, std::uint8_t value) {
+  const Eigen::Vector3i from = box.begin - first_key, to = box.end - first_key;
+  for (int k = from.z(); k < to.z(); ++k)
+    for (int j = from.y(); j < to.y(); ++j)
+      std::fill_n(marks.begin() + static_cast<std::ptrdiff_t>(geometry.index(from.x(), j, k)),
+                  to.x() - from.x(), value);
 }
 
 OccupancyOctree::OccupancyOctree()
@@ -232,8 +243,10 @@ void OccupancyOctree::setBrick(std::uint32_t brick, std::span<const float> log_o
     text << "brick " << brick << ": " << log_odds.size() << " voxels given, it holds " << size.prod();
     throw std::invalid_argument(text.str());
   }
-  BrickSet changed(data_->bricks.total());
   const KeyBox keys = data_->keysOf(r.begin, r.end);
+  const auto equal = [&](float x) { return x == log_odds[0] || (std::isnan(x) && std::isnan(log_odds[0])); };
+  if (std::all_of(log_odds.begin(), log_odds.end(), equal)) return data_->fill(keys, log_odds[0]);
+  BrickSet changed(data_->bricks.total());
   const Eigen::Vector3i first = keys.begin / octree::kBlock;
   const Eigen::Vector3i last = (keys.end - Eigen::Vector3i::Ones()) / octree::kBlock;
   for (int z = first.z(); z <= last.z(); ++z)
@@ -253,10 +266,7 @@ void OccupancyOctree::set(const Eigen::Vector3i& voxel, float log_odds) {
          << data_->geometry.size.transpose();
     throw std::invalid_argument(text.str());
   }
-  BrickSet changed(data_->bricks.total());
-  const std::size_t wanted = data_->geometry.index(voxel);
-  data_->rewrite((data_->first_key + voxel) / octree::kBlock, changed,
-                 [&](float value, std::size_t at) { return at == wanted ? log_odds : value; });
+  data_->fill(data_->keysOf(voxel, voxel + Eigen::Vector3i::Ones()), log_odds);
 }
 
 BrickSet OccupancyOctree::clearSphere(const Eigen::Vector3d& center_world, double radius_m) {

@@ -90,6 +90,20 @@ class OctreeNodes::Tree : public octomap::OcTree {
     node->setLogOdds(log_odds);
   }
 
+  /// Removes the children for which `keep` is false. \return whether any is left
+  template <class Keep>
+  bool keepChildren(Node* node, const Keep& keep) {
+    bool any = false;
+    for (unsigned n = 0; n < 8; ++n)
+      if (nodeChildExists(node, n)) {
+        if (keep(n))
+          any = true;
+        else
+          removeChild(node, n);
+      }
+    return any;
+  }
+
   void fill(Node* node, bool fresh, const Cube& cube, const KeyBox& box, float log_odds) {
     if (box.holds(cube.box())) return becomeLeaf(node, log_odds);
     if (!fresh && isLeaf(node) && node->getLogOdds() == log_odds) return;
@@ -104,20 +118,20 @@ class OctreeNodes::Tree : public octomap::OcTree {
     pruneNode(node);
   }
 
-  /// \return false if nothing is left of the node
+  /// Removes what lies in the box. \return false if nothing is left of the node
+  bool remove(Node* node, const Cube& cube, const KeyBox& box) {
+    if (!cube.meets(box)) return true;
+    if (box.holds(cube.box())) return false;
+    if (isLeaf(node)) expandNode(node);
+    return keepChildren(node, [&](unsigned n) { return remove(getNodeChild(node, n), cube.child(n), box); });
+  }
+
+  /// Removes what lies outside the box. \return false if nothing is left of the node
   bool cut(Node* node, const Cube& cube, const KeyBox& box) {
     if (!cube.meets(box)) return false;
     if (box.holds(cube.box())) return true;
     if (isLeaf(node)) expandNode(node);
-    bool any = false;
-    for (unsigned n = 0; n < 8; ++n)
-      if (nodeChildExists(node, n)) {
-        if (cut(getNodeChild(node, n), cube.child(n), box))
-          any = true;
-        else
-          removeChild(node, n);
-      }
-    return any;
+    return keepChildren(node, [&](unsigned n) { return cut(getNodeChild(node, n), cube.child(n), box); });
   }
 
   /// Writes a run of `count` values, not all the same, below a node.
@@ -146,10 +160,6 @@ class OctreeNodes::Tree : public octomap::OcTree {
     clamping_thres_min = low;
     clamping_thres_max = high;
   }
-  void removeIfEmpty() {
-    if (root && isLeaf(root)) clear();
-  }
-
   /// Brings inner nodes up to date and prunes; with a band leaves become labels, and unknown ones are
   /// dropped. \return false if nothing is left of the node
   bool tidy(Node* node, const OccupancyBand* band) {
@@ -159,14 +169,7 @@ class OctreeNodes::Tree : public octomap::OcTree {
       node->setLogOdds(state == VoxelState::Occupied ? getClampingThresMaxLog() : getClampingThresMinLog());
       return state != VoxelState::Unknown;
     }
-    bool any = false;
-    for (unsigned n = 0; n < 8; ++n)
-      if (nodeChildExists(node, n)) {
-        if (tidy(getNodeChild(node, n), band))
-          any = true;
-        else
-          removeChild(node, n);
-      }
+    const bool any = keepChildren(node, [&](unsigned n) { return tidy(getNodeChild(node, n), band); });
     if (any && !pruneNode(node)) node->updateOccupancyChildren();
     return any;
   }
@@ -249,25 +252,7 @@ void OctreeNodes::readBlock(const Eigen::Vector3i& block, Block& log_odds) const
 void OctreeNodes::writeBlock(const Eigen::Vector3i& block, const Block& log_odds) {
   const Eigen::Vector3i corner = block * kBlock;
   const bool same = sameBits(log_odds.data(), kBlockVoxels);
-  if (same && std::isnan(log_odds[0])) {
-    // Only what is there is removed, then the nodes above it that are left empty.
-    std::array<Node*, kDepth> above{};
-    bool fresh = false;
-    Node* node = tree_->getRoot();
-    int depth = 0;
-    for (int edge = kKeys; edge > kBlock; edge /= 2, ++depth) {
-      const unsigned n = childOf(corner, edge);
-      if (!node || (!tree_->isLeaf(node) && !tree_->nodeChildExists(node, n))) return;
-      above[depth] = node;
-      node = tree_->ensureChild(node, n, fresh);
-    }
-    while (--depth >= 0) {
-      tree_->removeChild(above[depth], childOf(corner, kKeys >> depth));
-      if (!tree_->isLeaf(above[depth])) return;
-    }
-    tree_->removeIfEmpty();
-    return;
-  }
+  if (same && std::isnan(log_odds[0])) return remove({corner, corner + Eigen::Vector3i::Constant(kBlock)});
   bool fresh = false;
   Node* node = tree_->ensureRoot(fresh);
   for (int edge = kKeys; edge > kBlock; edge /= 2)
@@ -283,6 +268,10 @@ void OctreeNodes::fill(const KeyBox& box, float log_odds) {
   bool fresh = false;
   Node* root = tree_->ensureRoot(fresh);
   tree_->fill(root, fresh, Cube{}, box, log_odds);
+}
+
+void OctreeNodes::remove(const KeyBox& box) {
+  if (tree_->getRoot() && !tree_->remove(tree_->getRoot(), Cube{}, box)) tree_->clear();
 }
 
 void OctreeNodes::cut(const KeyBox& box) {

@@ -60,6 +60,8 @@ class OctreeNodes {
   void readBlock(const Eigen::Vector3i& block, Block& log_odds) const;
   void writeBlock(const Eigen::Vector3i& block, const Block& log_odds);
   void fill(const KeyBox& box, float log_odds);
+  /// Removes everything inside.
+  void remove(const KeyBox& box);
   /// Removes everything outside.
   void cut(const KeyBox& box);
   /// Every leaf that meets the box: the part of it inside, and its log-odds.
