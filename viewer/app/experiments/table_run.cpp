@@ -1,5 +1,7 @@
 #include "viewer/app/experiments/table_run.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -87,12 +89,15 @@ class Meter {
   void compareWithHierarchical(const UtilityInput& input, const UtilitySearch& search) {
     HierarchicalQuery query;
     query.bounds = box_;
-    for (const ViewUtility& view : search.views) {
-      if (view.rays.rays_cast == 0) continue;  // dropped before its rays
-      ++result_.compared_with_uniform;
-      result_.different_from_uniform +=
-          castHierarchical(input.pyramid, tree_, 0, view.T_world_camera, query) != view.rays;
-    }
+    std::vector<std::uint8_t> differs(search.views.size(), 0);
+    tbb::parallel_for(std::size_t{0}, differs.size(), [&](std::size_t n) {
+      const ViewUtility& view = search.views[n];
+      if (view.rays.rays_cast > 0)  // not dropped before its rays
+        differs[n] = castHierarchical(input.pyramid, tree_, 0, view.T_world_camera, query) != view.rays;
+    });
+    result_.compared_with_uniform += search.counts.poses_scored;
+    result_.different_from_uniform +=
+        static_cast<std::uint64_t>(std::count(differs.begin(), differs.end(), 1));
   }
 
   /// The grids must never drift from the octree that they stand for.
