@@ -292,7 +292,10 @@ std::vector<Pose> Explorer::State::scanPoses(const std::optional<StepRecord>& pr
 bool Explorer::State::observe(StepRecord& record, std::optional<StepRecord>& previous,
                               const RunControl& control) {
   const std::uint64_t unknown_before = previous ? unknownInRegion(*previous) : 0;
-  if (!scanInto(record, scanPoses(previous), !previous, control)) {
+  // The hierarchical planner flies through what its octree takes for free; the TSDF has to learn that from
+  // the sensor itself, or nobody could plan a way back in it.
+  const bool new_ground = !previous || (config.needsVolume() && usesOctree(config.plannerOf(previous->step)));
+  if (!scanInto(record, scanPoses(previous), new_ground, control)) {
     if (!previous) throw std::runtime_error("the camera served no frame for the initial scan");
     return false;
   }

@@ -52,7 +52,8 @@ void WorldModel::fuse(const DepthFrame& frame, const PinholeCamera& camera, doub
         fuseDepth(*volume_, frame.depth, camera, frame.T_world_camera, config_.fusion).changed);
   }
   if (octree_) {
-    if (bubble_m > 0.0) octree_changed_.merge(octree_->clearSphere(eye, bubble_m));
+    if (bubble_m > 0.0 && config_.octree.outside == VoxelState::Unknown)
+      octree_changed_.merge(octree_->clearSphere(eye, bubble_m));
     octree_changed_.merge(octree_->insert(frame.depth, camera, frame.T_world_camera).changed);
   }
 }
