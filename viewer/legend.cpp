@@ -66,6 +66,7 @@ void drawMark(Page& page, double x, double y, const LegendEntry& entry, double u
 }
 
 std::string tickText(double value, double span) {
+  if (value == 0.0) return "0";
   if (span >= 50.0) return grouped(static_cast<std::uint64_t>(std::max(0.0, std::round(value))));
   // Three digits of the span.
   const int digits =
@@ -94,9 +95,10 @@ double drawScale(Page& page, double x, double y, double width, const ColorScale&
   page.frame(x, y, width, height, palette::kFaintInk);
   style.size_px = static_cast<int>(std::lround(12.5 * unit));
   const double span = scale.high - scale.low;
-  const int ticks = span >= 1e4 || ((span >= 500.0 || span < 0.5) && width < 240.0 * unit)
-                        ? 3
-                        : 5;  // long numbers would touch
+  // Long numbers would touch.
+  const bool narrow = width < 240.0 * unit;
+  const bool few = span >= 1e4 || span < 0.02 || (narrow && (span >= 500.0 || span < 0.5));
+  const int ticks = few ? 3 : 5;
   for (int i = 0; i < ticks; ++i) {
     const double at = x + width * i / (ticks - 1);
     page.line(at, y + height, at, y + height + 4.0 * unit, palette::kFaintInk);

@@ -202,10 +202,13 @@ std::vector<std::string> wrapText(const std::string& utf8, double width_px, cons
   std::string line;
   std::vector<std::string> parts;
   for (std::string word; words >> word;) {
-    // A number with blanks between its thousands stays on one line.
+    // A number with blanks between its thousands and its unit stay on one line.
+    const bool after_digit = !parts.empty() && std::isdigit(static_cast<unsigned char>(parts.back().back()));
+    const auto digit = [](unsigned char c) { return std::isdigit(c) != 0; };
+    const std::string bare = word.substr(0, word.find_last_not_of(".,;:)") + 1);
     const bool number =
-        !parts.empty() && std::isdigit(static_cast<unsigned char>(parts.back().back())) && word.size() >= 3 &&
-        std::all_of(word.begin(), word.begin() + 3, [](unsigned char c) { return std::isdigit(c); });
+        after_digit && ((word.size() >= 3 && std::all_of(word.begin(), word.begin() + 3, digit)) ||
+                        bare == "m" || bare == "cm" || bare == "mm");
     if (number) {
       parts.back() += " " + word;
     } else {

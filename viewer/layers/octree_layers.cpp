@@ -80,14 +80,17 @@ void addRays(LayerContent& content, const SceneFrame& frame, const LayerStyle& s
   }
 }
 
-/// Translucent cubes with crisp edges.
+/// Translucent cubes with edges, which fade where they are so many that they would cover all.
 void addNodes(LayerContent& content, const FaceMesh& faces, Rgb fill, double opacity, Rgb edge,
               double width_px, double edge_opacity) {
+  constexpr double kFewEdges = 2500.0, kFaintest = 0.06;
   if (faces.empty()) return;
   if (opacity > 0.0) content.props.push_back(faceActor(faces, fill, opacity));
+  if (edge_opacity <= 0.0) return;
   LineSet edges;
   addEdges(edges, faces);
-  content.props.push_back(lineActor(edges, edge, width_px, edge_opacity));
+  const double share = std::min(1.0, kFewEdges / static_cast<double>(edges.pieces.size()));
+  content.props.push_back(lineActor(edges, edge, width_px, std::max(kFaintest, edge_opacity * share)));
 }
 
 std::string edgeText(const StatePyramid& pyramid, int level) {
@@ -154,10 +157,10 @@ LayerContent coarseRaysLayer(const SceneFrame& frame, const LayerStyle& style) {
   const std::optional<ViewTrace> trace = traceView(frame, style);
   if (!trace) return content;
   const DrawnRays drawn = thinned(*trace, *frame.tree, style.coarse_rays);
+  content.legend.push_back({Mark::Dot, palette::kChosen, 1.0, "eye of the view"});
   addRays(content, frame, style, *trace, drawn.coarse);
   content.props.push_back(
       dotActor({trace->view->T_world_camera.translation()}, {}, palette::kChosen, 12.0 * style.line_scale));
-  content.legend.push_back({Mark::Dot, palette::kChosen, 1.0, "eye of the view"});
   content.must_see.push_back(trace->view->T_world_camera.translation());
   return content;
 }

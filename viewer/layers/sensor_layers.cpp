@@ -71,6 +71,7 @@ LayerContent sensorLayer(const SceneFrame& frame, const LayerStyle& style) {
     content.must_see.push_back(*pose * Eigen::Vector3d(side_m, 0.0, -0.05));
   LineSet frustum;
   addFrustum(frustum, frame.header.camera, *pose, 0.45);
+  for (const auto& [from, to] : frustum.pieces) content.must_see.push_back(to);
   content.props.push_back(lineActor(frustum, palette::kSensor, 2.0 * style.line_scale));
   content.legend.push_back({Mark::Line, palette::kSensor, 1.0, "sensor and its field of view (0.45 m)"});
   if (frame.record.scan.size() > 1) {

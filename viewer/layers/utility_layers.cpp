@@ -157,8 +157,9 @@ void addReasonLegends(LayerContent& content, const UtilitySearch& search) {
   }
 }
 
-bool onSphere(const SceneFrame& frame) {
-  return frame.header.octree && frame.header.octree->planner.generator == CandidateGenerator::Icosphere;
+/// A face of the view sphere, not a recorded pose or one drawn in the workspace.
+bool onSphere(const SceneFrame& frame, const ViewUtility& view) {
+  return frame.header.octree->planner.generator == CandidateGenerator::Icosphere && view.frame < 0;
 }
 
 /// The far half in full, seen from inside; of the near half small patches, so that the scene shows between
@@ -172,7 +173,7 @@ void addSphere(LayerContent& content, const SceneFrame& frame, const LayerStyle&
   const double radius_m = octree.planner.sphere_radius_m;
   Patches far, near, marks;
   for (const ViewUtility& view : search.views) {
-    if (view.frame >= 0 || view.id >= sphere.faces.size()) continue;
+    if (!onSphere(frame, view) || view.id >= sphere.faces.size()) continue;
     const Fallen fallen = fallenOf(view);
     const Rgb color =
         fallen == Fallen::No
@@ -199,8 +200,9 @@ void addSphere(LayerContent& content, const SceneFrame& frame, const LayerStyle&
   if (!marks.triangles.empty())
     content.props.push_back(
         flatTriangleActor(marks.points, marks.triangles, marks.colors, FaceSide::AwayFromEye, 1.0));
-  if (search.chosen && search.chosen->id < sphere.faces.size()) {
-    const SphereFace face = faceOf(sphere, search.chosen->id, center, radius_m);
+  const ViewUtility* chosen = chosenUtility(search);
+  if (chosen && onSphere(frame, *chosen) && chosen->id < sphere.faces.size()) {
+    const SphereFace face = faceOf(sphere, chosen->id, center, radius_m);
     for (int c = 0; c < 3; ++c)
       content.props.push_back(
           tubeActor({face.corners[c], face.corners[(c + 1) % 3]}, 0.008 * radius_m, palette::kChosen));
@@ -216,26 +218,28 @@ void addBestFrusta(LayerContent& content, const SceneFrame& frame, const LayerSt
   int drawn = 0;
   for (const std::uint32_t index : search.ranking) {
     const ViewUtility& view = search.views[index];
-    if (fallenOf(view) != Fallen::No || drawn++ >= style.ranked_views) continue;
+    if (onSphere(frame, view) || fallenOf(view) != Fallen::No || drawn++ >= style.ranked_views) continue;
     addFrustum(lines, camera, view.T_world_camera, style.frustum_length_m / 2);
     lines.colors.resize(lines.pieces.size(), colorAt(ColorMap::Viridis, factorOf(view, style.utility_factor) /
                                                                             content.scale->high));
   }
   if (!lines.pieces.empty()) content.props.push_back(lineActor(lines, palette::kInk, 1.5 * style.line_scale));
-  if (!search.chosen) return;
-  LineSet chosen;
-  addFrustum(chosen, camera, search.chosen->T_world_camera, style.frustum_length_m);
-  content.props.push_back(lineActor(chosen, palette::kChosen, 3.5 * style.line_scale));
+  const ViewUtility* chosen = chosenUtility(search);
+  if (!chosen || onSphere(frame, *chosen)) return;
+  LineSet frustum;
+  addFrustum(frustum, camera, chosen->T_world_camera, style.frustum_length_m);
+  content.props.push_back(lineActor(frustum, palette::kChosen, 3.5 * style.line_scale));
   content.legend.push_back({Mark::Line, palette::kChosen, 1.0, "chosen view"});
 }
 
-/// Candidates anywhere: dots in colours, frusta for the best, marks for those that fell out.
+/// Candidates off the sphere: dots in colours, frusta for the best, marks for those that fell out.
 void addScattered(LayerContent& content, const SceneFrame& frame, const LayerStyle& style) {
   const UtilitySearch& search = *frame.record.utilities;
   std::vector<Eigen::Vector3d> eyes, few_known;
   std::vector<Rgb> colors;
   LineSet crosses, diamonds;
   for (const ViewUtility& view : search.views) {
+    if (onSphere(frame, view)) continue;
     const Eigen::Vector3d eye = view.T_world_camera.translation();
     const Eigen::Vector3d x = Eigen::Vector3d::UnitX() * 0.008, z = Eigen::Vector3d::UnitZ() * 0.008;
     switch (fallenOf(view)) {
@@ -285,13 +289,14 @@ LayerContent utilitySphereLayer(const SceneFrame& frame, const LayerStyle& style
   LayerContent content;
   if (!frame.record.utilities || frame.record.utilities->views.empty() || !frame.header.octree)
     return content;
+  const UtilitySearch& search = *frame.record.utilities;
   content.scale = scaleOf(frame, style.utility_factor);
-  if (onSphere(frame)) {
+  const auto on_sphere = [&](const ViewUtility& view) { return onSphere(frame, view); };
+  if (std::ranges::any_of(search.views, on_sphere)) {
     addSphere(content, frame, style);
-    addReasonLegends(content, *frame.record.utilities);
-  } else {
-    addScattered(content, frame, style);
+    addReasonLegends(content, search);
   }
+  if (!std::ranges::all_of(search.views, on_sphere)) addScattered(content, frame, style);
   return content;
 }
 
