@@ -163,6 +163,32 @@ TEST_F(Octree, RealMapsAreDescribed) {
   EXPECT_NEAR(facts["free_m3"].get<double>(), 486.7886, 1e-3);
 }
 
+TEST_F(Octree, GainOfAStepEqualsWhatItsPlannerSaw) {
+  const std::string run = folder_ / "box.vantage";
+  const ProcessResult explored = vantage({"explore", "box", "--planner", "hierarchical", "--steps", "1", "-o",
+                                          run, "--json", folder_ / "box.json"});
+  ASSERT_EQ(explored.code, 0) << explored.err;
+  const auto step = nlohmann::json::parse(readFile(folder_ / "box.json"))["steps"][0];
+  ASSERT_EQ(step["status"], "view");
+  std::ostringstream view, bounds;
+  view.precision(17);
+  view << "id,x_m,y_m,z_m,qx,qy,qz,qw\n0";
+  for (const double x : step["position_m"]) view << ',' << x;
+  for (const double q : step["quaternion_xyzw"]) view << ',' << q;
+  writeFile(folder_ / "view.csv", view.str() + "\n");
+  const auto facts = nlohmann::json::parse(vantage({"info", run + "#1", "--json", "-"}).out);
+  ASSERT_EQ(facts["kind"], "octree");
+  for (const char* corner : {"object_min_m", "object_max_m"})
+    for (const double x : facts[corner]) bounds << (bounds.tellp() > 0 ? "," : "") << x;
+  const ProcessResult result = vantage({"gain", run + "#1", folder_ / "view.csv", "-o", "-", "--tracer",
+                                        "hierarchical", "--bounds=" + bounds.str()});
+  ASSERT_EQ(result.code, 0) << result.err;
+  std::ostringstream expected;
+  expected << "0," << step["gain"].get<double>() << ',' << step["occupied"].get<double>() << ",";
+  EXPECT_EQ(lines(result.out).at(1).rfind(expected.str(), 0), 0u) << result.out << expected.str();
+  expectRefused(vantage({"contours", run + "#1", "-o", folder_ / "c.csv"}), {"octree"});
+}
+
 TEST_F(Octree, OptionsThatDoNotFitAreRefused) {
   expectGainRefused("half.bt", {"--coarse-levels", "1"}, {"--coarse-levels", "--tracer hierarchical"});
   expectGainRefused("half.bt", {"--restart"}, {"--restart", "--tracer hierarchical"});
