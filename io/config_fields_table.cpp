@@ -1,99 +1,10 @@
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <type_traits>
+#include "io/config_field_makers.h"
 
-#include "io/config_fields.h"
-
-// The one list of everything that can be configured: key, meaning with unit and source, range, and where it
+// The list of everything that can be configured: key, meaning with unit and source, range, and where it
 // lives. "section" is a section of the contour planner's specification, "D-B7" one of its decisions.
 
 namespace vantage::config {
 namespace {
-
-double radians(double degrees) {
-  return degrees * std::numbers::pi / 180.0;
-}
-
-/// The degrees that radians() takes back to exactly this angle, if there are any.
-double degrees(double angle_rad) {
-  const double about = angle_rad * 180.0 / std::numbers::pi;
-  const double rounded = std::round(about * 1e9) / 1e9;
-  if (radians(rounded) == angle_rad) return rounded;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  double up = about, down = about;
-  for (int i = 0; i < 4; ++i) {
-    if (radians(up) == angle_rad) return up;
-    if (radians(down) == angle_rad) return down;
-    up = std::nextafter(up, kInfinity);
-    down = std::nextafter(down, -kInfinity);
-  }
-  return about;
-}
-
-Field base(const char* key, const char* doc, Kind kind, double low = 0.0, double high = 0.0) {
-  Field field;
-  field.key = key;
-  field.documentation = doc;
-  field.kind = kind;
-  field.low = low;
-  field.high = high;
-  return field;
-}
-
-// `ref` is a generic lambda that leads to the value in const and in mutable settings.
-
-template <class Ref>
-Field number(const char* key, const char* doc, double low, double high, Ref ref) {
-  Field field = base(key, doc, Kind::Number, low, high);
-  field.get = [ref](const Settings& s) -> Value { return double{ref(s)}; };
-  field.set = [ref](Settings& s, const Value& v) { ref(s) = std::get<double>(v); };
-  return field;
-}
-
-template <class Ref>
-Field angle(const char* key, const char* doc, double low, double high, Ref ref) {
-  Field field = base(key, doc, Kind::Number, low, high);
-  field.get = [ref](const Settings& s) -> Value { return degrees(ref(s)); };
-  field.set = [ref](Settings& s, const Value& v) { ref(s) = radians(std::get<double>(v)); };
-  return field;
-}
-
-template <class Ref>
-Field integer(const char* key, const char* doc, double low, double high, Ref ref) {
-  Field field = base(key, doc, Kind::Integer, low, high);
-  field.get = [ref](const Settings& s) -> Value { return static_cast<std::int64_t>(ref(s)); };
-  field.set = [ref](Settings& s, const Value& v) {
-    auto& target = ref(s);
-    target = static_cast<std::remove_reference_t<decltype(target)>>(std::get<std::int64_t>(v));
-  };
-  return field;
-}
-
-template <class Ref>
-Field flag(const char* key, const char* doc, Ref ref) {
-  Field field = base(key, doc, Kind::Boolean);
-  field.get = [ref](const Settings& s) -> Value { return bool{ref(s)}; };
-  field.set = [ref](Settings& s, const Value& v) { ref(s) = std::get<bool>(v); };
-  return field;
-}
-
-/// Two or more words for the values of an enumeration or a flag.
-template <class T, class Ref>
-Field choice(const char* key, const char* doc, std::vector<std::pair<std::string, T>> words, Ref ref) {
-  Field field = base(key, doc, Kind::Choice);
-  for (const auto& [word, value] : words) field.choices.push_back(word);
-  field.get = [ref, words](const Settings& s) -> Value {
-    for (const auto& [word, value] : words)
-      if (value == ref(s)) return word;
-    return words.front().first;
-  };
-  field.set = [ref, words](Settings& s, const Value& v) {
-    for (const auto& [word, value] : words)
-      if (word == std::get<std::string>(v)) ref(s) = value;
-  };
-  return field;
-}
 
 /// The planners of a run (core/exploration/planner_kind.h).
 Field plannerNames(const char* key, const char* doc) {
@@ -105,58 +16,6 @@ Field plannerNames(const char* key, const char* doc) {
   };
   return field;
 }
-
-/// A vector of three numbers or integers.
-template <class Ref>
-Field vector3(const char* key, const char* doc, Kind kind, double low, double high, Ref ref) {
-  Field field = base(key, doc, kind, low, high);
-  field.min_count = field.max_count = 3;
-  field.get = [ref](const Settings& s) -> Value {
-    const auto& v = ref(s);
-    return std::vector<double>{double(v[0]), double(v[1]), double(v[2])};
-  };
-  field.set = [ref](Settings& s, const Value& value) {
-    auto& v = ref(s);
-    for (int i = 0; i < 3; ++i)
-      v[i] = static_cast<std::remove_reference_t<decltype(v[i])>>(std::get<std::vector<double>>(value)[i]);
-  };
-  return field;
-}
-
-template <class Ref>
-Field list(const char* key, const char* doc, double low, double high, int most, Ref ref) {
-  Field field = base(key, doc, Kind::Numbers, low, high);
-  field.min_count = 1;
-  field.max_count = most;
-  field.get = [ref](const Settings& s) -> Value { return ref(s); };
-  field.set = [ref](Settings& s, const Value& v) { ref(s) = std::get<std::vector<double>>(v); };
-  return field;
-}
-
-/// A rotation as unit quaternion x, y, z, w.
-template <class Ref>
-Field quaternion(const char* key, const char* doc, Ref ref) {
-  Field field = base(key, doc, Kind::Numbers, -1.0, 1.0);
-  field.min_count = field.max_count = 4;
-  field.get = [ref](const Settings& s) -> Value {
-    const Eigen::Quaterniond& q = ref(s);
-    return std::vector<double>{q.x(), q.y(), q.z(), q.w()};
-  };
-  field.set = [key, ref](Settings& s, const Value& value) {
-    const auto& v = std::get<std::vector<double>>(value);
-    const Eigen::Quaterniond q(v[3], v[0], v[1], v[2]);
-    if (!(std::abs(q.norm() - 1.0) <= 1e-3))
-      throw std::invalid_argument(std::string(key) + " is a quaternion of length " +
-                                  std::to_string(q.norm()) + "; allowed: 1 within 0.001");
-    ref(s) = q;
-  };
-  return field;
-}
-
-#define AT(member)       \
-  [](auto& s) -> auto& { \
-    return s.member;     \
-  }
 
 std::vector<Field> explorationFields() {
   return {
@@ -318,100 +177,6 @@ std::vector<Field> gainFields() {
   };
 }
 
-/// "A section" is a section of the hierarchical planner's specification.
-std::vector<Field> octreeFields() {
-  return {
-      number("octree.voxel_size_m", "l, edge of a finest voxel, metres (A section 8)", 1e-3, 1,
-             AT(exploration.octree.voxel_size_m)),
-      vector3(
-          "octree.object_min_m",
-          "lower corner of the object's box, metres; a box without volume = the workspace (A section 1)",
-          Kind::Numbers, -1000, 1000, [](auto& s) -> auto& { return s.exploration.octree.object_box.min(); }),
-      vector3(
-          "octree.object_max_m", "upper corner of the object's box, metres", Kind::Numbers, -1000, 1000,
-          [](auto& s) -> auto& { return s.exploration.octree.object_box.max(); }),
-      choice<VoxelState>("octree.outside", "what is around the object's box at the start (D-A10)",
-                         {{"free", VoxelState::Free}, {"unknown", VoxelState::Unknown}},
-                         AT(exploration.octree.outside)),
-      flag("octree.known_scene",
-           "simulation: table, panel and room are in the map from the start (A section 10.4)",
-           AT(exploration.octree.known_scene)),
-      number("octree.hit_probability", "of a voxel in which a measurement ends (A section 8)", 0.501, 0.999,
-             AT(exploration.octree.occupancy.hit_probability)),
-      number("octree.miss_probability", "of a voxel that a ray passes (A section 8)", 0.001, 0.499,
-             AT(exploration.octree.occupancy.miss_probability)),
-      number("octree.clamp_min", "probabilities stay above (A section 8)", 0.001, 0.499,
-             AT(exploration.octree.occupancy.clamp_min)),
-      number("octree.clamp_max", "probabilities stay below (A section 8)", 0.501, 0.999,
-             AT(exploration.octree.occupancy.clamp_max)),
-      number("octree.unknown_low", "below it a voxel is free (D-A7)", 0.001, 0.5,
-             AT(exploration.octree.occupancy.unknown_low)),
-      number("octree.unknown_high", "from here on it is occupied (D-A7)", 0.5, 0.999,
-             AT(exploration.octree.occupancy.unknown_high)),
-      number("octree.insert_range_m",
-             "measurements beyond only clear the way up to here, metres (A section 8)", 0.01, 1000,
-             AT(exploration.octree.occupancy.insert_range_m)),
-      choice<InnerRule>("octree.inner", "label of a coarse node: maximum or mean of its voxels (D-A5)",
-                        {{"max", InnerRule::Max}, {"mean", InnerRule::Mean}},
-                        AT(exploration.octree.occupancy.inner)),
-  };
-}
-
-std::vector<Field> hierarchicalFields() {
-  return {
-      angle("rays.horizontal_fov_deg", "a_h, full aperture of the planned sensor, degrees (A section 8)", 1,
-            179, AT(exploration.hierarchical.sensor.horizontal_fov_rad)),
-      angle("rays.vertical_fov_deg", "a_v, full aperture of the planned sensor, degrees (A section 8)", 1,
-            179, AT(exploration.hierarchical.sensor.vertical_fov_rad)),
-      number("rays.min_range_m", "hits nearer than this are lost, metres (D-A22)", 0, 1000,
-             AT(exploration.hierarchical.sensor.min_range_m)),
-      number("rays.max_range_m", "d, depth of view, metres, above the nearest (A section 8)", 0.01, 1000,
-             AT(exploration.hierarchical.sensor.max_range_m)),
-      choice<RayAnchor>("rays.anchor", "where the grid of rays lies in the aperture (D-A1)",
-                        {{"centered", RayAnchor::Centered}, {"literal", RayAnchor::Literal}},
-                        AT(exploration.hierarchical.sensor.anchor)),
-      integer("rays.coarse_levels", "m, levels above the finest at which tracing starts (A section 6)", 0, 8,
-              AT(exploration.hierarchical.coarse_levels)),
-      choice<ChildStart>("rays.child_start",
-                         "refined rays begin at their parent's hit or at the sensor (D-A11)",
-                         {{"resume", ChildStart::Resume}, {"restart", ChildStart::Restart}},
-                         AT(exploration.hierarchical.child_start)),
-      flag("rays.refine_unknown", "unknown nodes are refined too (D-A4)",
-           AT(exploration.hierarchical.refine_unknown)),
-      choice<GainCount>("rays.count", "what is counted (D-A4)",
-                        {{"rays", GainCount::Rays}, {"voxels", GainCount::Voxels}},
-                        AT(exploration.hierarchical.count)),
-      choice<CandidateGenerator>(
-          "candidates.generator", "where candidate views come from (A section 7)",
-          {{"icosphere", CandidateGenerator::Icosphere}, {"workspace", CandidateGenerator::Workspace}},
-          AT(exploration.hierarchical.generator)),
-      integer("candidates.subdivisions", "of the icosphere: 20 * 4^n views (D-A21)", 0, 6,
-              AT(exploration.hierarchical.icosphere_subdivisions)),
-      number("candidates.radius_m", "of the icosphere about the object's box, metres (A section 8)", 0.01,
-             100, AT(exploration.hierarchical.sphere_radius_m)),
-      integer("candidates.workspace_views", "drawn uniformly in the mapped volume (A section 8)", 0, 1000000,
-              AT(exploration.hierarchical.workspace_views)),
-      flag("candidates.recorded", "recorded data: the poses that are left are candidates too",
-           AT(exploration.recorded_candidates)),
-      number("utility.body_m", "RBB, edge of the robot's cube, metres (D-A16)", 0, 10,
-             AT(exploration.hierarchical.body_m)),
-      number("utility.min_occupied", "h_oc, least known surface in view, rays (eq. 2)", 0, 1e9,
-             AT(exploration.hierarchical.min_occupied)),
-      number("utility.min_overlap", "instead: least share of known surface, 0 = h_oc counts (D-A15)", 0, 1,
-             AT(exploration.hierarchical.min_overlap)),
-      number("utility.stop_gain", "h_stop, least unknown in view, rays (D-A18)", 0, 1e9,
-             AT(exploration.hierarchical.stop_gain)),
-      flag("utility.exclude_executed", "views near one already taken are not offered again",
-           AT(exploration.hierarchical.exclude_executed)),
-      number("utility.executed_distance_m", "how near, metres", 0, 1000,
-             AT(exploration.hierarchical.executed_distance_m)),
-      angle("utility.executed_angle_deg", "and how little turned, degrees", 0, 180,
-            AT(exploration.hierarchical.executed_angle_rad)),
-      number("utility.rotation_weight_m_per_rad", "w, metres of distance a radian of rotation (D-A17)", 0,
-             1000, AT(exploration.hierarchical.rotation_weight_m_per_rad)),
-  };
-}
-
 std::vector<Field> robotFields() {
   return {
       number("robot.body_radius_m", "of the free-flying sensor, metres (D-B26)", 0, 10,
@@ -434,8 +199,6 @@ std::vector<Field> robotFields() {
              AT(free_flyer.speed_m_per_s)),
   };
 }
-
-#undef AT
 
 std::vector<Field> allFields() {
   std::vector<Field> all;

@@ -12,6 +12,7 @@ vantage_library(vantage_io_data
     cloud_normals.cpp
     cloud_pcd.cpp
     config_fields.cpp
+    config_fields_hierarchical.cpp
     config_fields_table.cpp
     config_file.cpp
     config_validate.cpp
