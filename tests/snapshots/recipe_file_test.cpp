@@ -84,6 +84,10 @@ height_share = 0.6
   style.frustum_length_m = 0.2;
   style.slice_axis = 2;
   style.slice_at_m = 0.05;
+  style.octree_level = 3;
+  style.view_id = 17;
+  style.coarse_rays = 99;
+  style.utility_factor = UtilityFactor::Distance;
   style.label_px = 20;
   style.line_scale = 2;
   EXPECT_EQ(recipe.view.style, style);

@@ -235,7 +235,10 @@ TEST(UtilitySphere, WorkspaceCandidatesAreDotsAndMarks) {
   std::size_t left = 0;
   for (const std::uint32_t index : run.record.utilities->ranking)
     left += !isUnreachable(run.record.utilities->views[index].reachability);
-  EXPECT_EQ(static_cast<std::size_t>(dataOf(content)->GetNumberOfCells()), left);
+  ASSERT_GE(content.props.size(), 3u);  // frusta of the best, the chosen one, dots
+  EXPECT_EQ(static_cast<std::size_t>(dataOf(content, 0)->GetNumberOfCells()),
+            8 * std::min<std::size_t>(left, 24));
+  EXPECT_EQ(static_cast<std::size_t>(dataOf(content, 2)->GetNumberOfCells()), left);
   EXPECT_TRUE(hasMark(content, LegendEntry::Mark::Cross));
 }
 
