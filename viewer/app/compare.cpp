@@ -6,6 +6,7 @@
 
 #include "io/run_file.h"
 #include "io/text_file.h"
+#include "snapshots/comparison.h"
 #include "viewer/app/command.h"
 #include "viewer/app/console.h"
 #include "viewer/app/inputs.h"
@@ -18,7 +19,7 @@ using Json = nlohmann::ordered_json;
 
 struct CompareOptions {
   std::vector<std::string> runs;
-  std::string output;
+  std::string output, picture;
 };
 
 /// What a run knew and did at a step, in units that do not depend on its voxels.
@@ -130,10 +131,23 @@ Json toJson(const std::vector<ComparedStep>& rows, const std::vector<std::string
   return {{"runs", paths}, {"steps", all}};
 }
 
+void takePicture(const GlobalOptions& global, const CompareOptions& options) {
+  Console console(global);
+  ComparisonRequest request;
+  request.output = options.picture;
+  const auto files = takeComparison(options.runs[0], options.runs[1], request, console.control());
+  console.clear();
+  for (const auto& file : files) say(global, file.string());
+}
+
 int compare(const GlobalOptions& global, const CompareOptions& options) {
-  std::vector<std::pair<std::string, std::string>> files = {{"-o", options.output}, {"--json", global.json}};
+  std::vector<std::pair<std::string, std::string>> files = {
+      {"-o", options.output}, {"--json", global.json}, {"--picture", options.picture}};
   for (const std::string& run : options.runs) files.emplace_back("RUN", run);
   requireDistinctFiles(files);
+  if (!options.picture.empty() && options.runs.size() != 2)
+    throw InputError("--picture",
+                     fmt::format("shows two runs side by side; {} were given", options.runs.size()));
   const std::vector<ComparedStep> rows = compareRuns(options.runs);
   if (options.output != "-" && global.json != "-") {
     for (std::size_t n = 0; n < options.runs.size(); ++n)
@@ -146,6 +160,7 @@ int compare(const GlobalOptions& global, const CompareOptions& options) {
   else if (!options.output.empty())
     saveFile(options.output, text);
   writeJson(global.json, toJson(rows, options.runs));
+  if (!options.picture.empty()) takePicture(global, options);
   return 0;
 }
 
@@ -159,6 +174,8 @@ void addCompare(CLI::App& app, const GlobalOptions& global, Action& action) {
       ->expected(2, 16)
       ->type_name("RUN");
   command->add_option("-o,--output", o->output, "The table, CSV")->type_name("TABLE.csv");
+  command->add_option("--picture", o->picture, "Both runs side by side, a row a step (two runs)")
+      ->type_name("SHEET.png");
   command->footer("Example: vantage compare contour.vantage hierarchical.vantage -o steps.csv");
   command->callback([&global, &action, o] { action = [&global, o] { return compare(global, *o); }; });
 }
