@@ -50,7 +50,7 @@ std::string curve(const LinePlot::Series& series, std::size_t number, const auto
 }  // namespace
 
 std::string plotSvg(const LinePlot& plot) {
-  constexpr double kWidth = 900, kLeft = 70, kRight = 640, kTop = 15;
+  constexpr double kWidth = 900, kLeft = 70, kRight = 640, kTop = 30;
   const double bottom = std::max(260.0, 30 + 14.0 * static_cast<double>(plot.series.size()));
   double top = 0;
   std::size_t most = 2;
@@ -70,7 +70,7 @@ std::string plotSvg(const LinePlot& plot) {
   }
   for (std::size_t i = 1; i <= most; ++i) body += text(x_of(i), bottom + 16, "middle", std::to_string(i));
   body += text((kLeft + kRight) / 2, bottom + 34, "middle", plot.x_label);
-  body += text(kLeft - 60, kTop - 4, "start", plot.y_label);
+  body += text(kLeft - 60, 12, "start", plot.y_label);
   for (std::size_t n = 0; n < plot.series.size(); ++n) {
     body += curve(plot.series[n], n, x_of, y_of);
     const double y = kTop + 10 + 14.0 * static_cast<double>(n);

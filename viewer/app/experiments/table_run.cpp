@@ -52,6 +52,7 @@ class Meter {
     IterationResult step;
     step.candidates = search.counts.poses_generated;
     step.scored = search.counts.poses_scored;
+    step.survivors = search.ranking.size();
     step.rays = search.counts.rays;
     step.finest_rays = search.finest_rays_cast;
     step.visits = search.counts.voxels_visited;
@@ -139,12 +140,20 @@ void measureAccuracy(const TableSetup& setup, const WorldModel& world, const Box
   result.accuracy_95_m = distances[static_cast<std::size_t>(std::ceil(0.95 * distances.size())) - 1];
 }
 
+/// Why a run without a further view ended.
+std::string refined(const std::string& stop_reason, const RunResult& result) {
+  if (stop_reason != "finished" || result.iterations.empty()) return stop_reason;
+  return result.iterations.back().survivors == 0 ? "finished: too little known surface in every view (h_oc)"
+                                                 : "finished: no view reaches h_stop";
+}
+
 ExplorationConfig configOf(const TableSetup& setup, const RunSpec& spec) {
   ExplorationConfig config = setup.settings.exploration;
   config.planners = {spec.coarse_levels == 0 ? PlannerKind::Uniform : PlannerKind::Hierarchical};
   config.hierarchical.coarse_levels = spec.coarse_levels;
   config.hierarchical.child_start = spec.start;
   config.hierarchical.exclude_executed = !spec.repeat_views;
+  if (spec.min_overlap > 0.0) config.hierarchical.min_overlap = spec.min_overlap;
   config.octree.occupancy.inner = spec.inner;
   return config;
 }
@@ -182,7 +191,7 @@ RunResult runOnTable(const TableSetup& setup, const RunSpec& spec, int repeats, 
     if (record->stage == Stage::Evaluation) meter.evaluated(*record, explorer.world());
     if (record->stage == Stage::Done) result.coverage = record->metrics.coverage.value_or(0.0);
   });
-  result.stop_reason = explorer.run(control).stop_reason;
+  result.stop_reason = refined(explorer.run(control).stop_reason, result);
   control.check();
   measureAccuracy(setup, explorer.world(), config.objectBox(), result);
   return result;

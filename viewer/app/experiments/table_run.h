@@ -36,13 +36,16 @@ struct RunSpec {
   ChildStart start = ChildStart::Resume;
   InnerRule inner = InnerRule::Max;
   bool repeat_views = false;  ///< views that were taken may be chosen again, as the paper has it
+  double min_overlap = 0.0;   ///< share of known surface instead of h_oc (D-A15), 0 = off
   std::string label() const;  ///< "m=2 resume"
+  /// Runs with other rules than the specification's own are printed, not graded.
+  bool graded() const { return !repeat_views && min_overlap == 0.0; }
 };
 
 /// What one planning step did.
 struct IterationResult {
   double nbv_s = 0.0;  ///< candidates, cascade and choice, without motion planning
-  std::uint64_t candidates = 0, scored = 0, rays = 0, finest_rays = 0, visits = 0;
+  std::uint64_t candidates = 0, scored = 0, survivors = 0, rays = 0, finest_rays = 0, visits = 0;
   std::uint64_t occupied_rays = 0, unknown_rays = 0;  ///< over all views
   std::uint64_t unknown_voxels = 0;                   ///< in the object's box, after the scan
   std::int64_t chosen = -1;                           ///< id of the next view, -1 = none
