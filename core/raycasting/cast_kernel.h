@@ -75,13 +75,13 @@ struct Totals {
 struct RayList {
   const float* slope_x = nullptr;
   const float* slope_y = nullptr;
-  const float* start_m = nullptr;  ///< along the ray; 0 = at the origin. Null: all are
-  const std::uint32_t* ray = nullptr;
+  const float* start_m = nullptr;        ///< along the ray; 0 = at the origin. Null: all are
+  const std::uint32_t* ray = nullptr;    ///< place in family order, RayFamilies
   const std::uint16_t* lanes = nullptr;  ///< one mask a packet; null: every ray is cast
   std::uint32_t count = 0;               ///< entries; 16 can be read from any multiple of 16 below
 };
 
-/// Rays to be cast on the next finer level: appended to, with room for RayLevel::kSlopeMargin more.
+/// Rays to be cast on the next finer level: appended to, with room for RayFamilies::kMargin more.
 struct ChildList {
   float* slope_x = nullptr;
   float* slope_y = nullptr;
@@ -95,7 +95,6 @@ struct Refinement {
   const RayFamily* families = nullptr;  ///< of the rays of this level; null at the finest: nothing is refined
   const float* child_slope_x = nullptr;  ///< of the next finer level
   const float* child_slope_y = nullptr;
-  std::uint32_t child_columns = 0;
   float step_back_m = 0;  ///< children start so far before the hit; at the origin if that lies behind it
   bool refine_unknown = false;
   ChildList* children = nullptr;

@@ -343,22 +343,23 @@ inline std::uint64_t leavesOf(const RayFamily* families, const std::uint32_t* ra
   return leaves;
 }
 
-/// Appends the children of one ray, a row of four at a time: what is too much is overwritten by the next.
+/// Appends the children of one ray, eight at a time: what is too much is overwritten by the next.
 inline void refine(const Refinement& r, const RayFamily& family, float start_m, ChildList& out) {
-  const float starts[4] = {start_m, start_m, start_m, start_m};
-  std::uint32_t end = out.count;
-  for (std::uint32_t row = 0; row < family.rows; ++row) {
-    const std::uint32_t from = family.first_child + row * r.child_columns;
-    for (std::uint32_t c = 0; c < family.columns; c += 4) {
-      const std::uint32_t rays[4] = {from + c, from + c + 1, from + c + 2, from + c + 3};
-      std::memcpy(out.slope_x + end + c, r.child_slope_x + from + c, sizeof starts);
-      std::memcpy(out.slope_y + end + c, r.child_slope_y + from + c, sizeof starts);
-      std::memcpy(out.start_m + end + c, starts, sizeof starts);
-      std::memcpy(out.ray + end + c, rays, sizeof rays);
+  constexpr std::uint32_t kAtOnce = 8;
+  for (std::uint32_t c = 0; c < family.children; c += kAtOnce) {
+    const std::uint32_t from = family.first_child + c, to = out.count + c;
+    float starts[kAtOnce];
+    std::uint32_t rays[kAtOnce];
+    for (std::uint32_t k = 0; k < kAtOnce; ++k) {
+      starts[k] = start_m;
+      rays[k] = from + k;
     }
-    end += family.columns;
+    std::memcpy(out.slope_x + to, r.child_slope_x + from, sizeof starts);
+    std::memcpy(out.slope_y + to, r.child_slope_y + from, sizeof starts);
+    std::memcpy(out.start_m + to, starts, sizeof starts);
+    std::memcpy(out.ray + to, rays, sizeof rays);
   }
-  out.count = end;
+  out.count += family.children;
 }
 
 /// What becomes of the rays of a coarse level: they are refined, or count for all finest rays below them.

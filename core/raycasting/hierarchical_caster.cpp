@@ -18,7 +18,7 @@ constexpr std::uint32_t kSlice = 64 * kPacket;
 class RayBuffer {
  public:
   explicit RayBuffer(std::uint32_t rays) {
-    static_assert(kPacket >= RayLevel::kSlopeMargin);
+    static_assert(kPacket >= RayFamilies::kMargin);
     const std::size_t size = rays + kPacket;
     slope_x_.reset(new float[size]);
     slope_y_.reset(new float[size]);
@@ -61,7 +61,7 @@ RayList sliceOf(const RayList& list, std::uint32_t first) {
 RayList allRays(const RayLevel& level) {
   const RayTiles& tiles = level.tiles;
   return {tiles.slope_x.data(), tiles.slope_y.data(), nullptr,
-          tiles.ray.data(),     tiles.lanes.data(),   static_cast<std::uint32_t>(tiles.ray.size())};
+          tiles.place.data(),   tiles.lanes.data(),   static_cast<std::uint32_t>(tiles.ray.size())};
 }
 
 void take(const Totals& totals, RayCounts& counts) {
@@ -104,10 +104,7 @@ class Descent {
  private:
   /// Most children of a slice of the next coarser level.
   std::uint32_t roomFor(int level) const {
-    std::uint32_t most = 0;
-    for (const RayFamily& family : tree_.level(level + 1).families)
-      most = std::max<std::uint32_t>(most, family.rows * family.columns);
-    return std::min(tree_.level(level).count(), most * kSlice);
+    return std::min(tree_.level(level).count(), tree_.level(level + 1).families.most_children * kSlice);
   }
 
   void castList(int level, const RayList& list) {
@@ -123,11 +120,10 @@ class Descent {
   }
 
   Refinement refinementOf(int level, ChildList& children) const {
-    const RayLevel &coarse = tree_.level(level), &fine = tree_.level(level - 1);
-    return {coarse.families.data(),
+    const RayFamilies& fine = tree_.level(level - 1).families;
+    return {tree_.level(level).families.family.data(),
             fine.slope_x.data(),
             fine.slope_y.data(),
-            fine.columns.count(),
             view_.step_back_m[level],
             query_.refine_unknown,
             &children};

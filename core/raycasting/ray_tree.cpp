@@ -57,18 +57,16 @@ void countChildren(const RayAxis& fine, RayAxis& coarse) {
 }
 
 void fillSlopes(RayLevel& level) {
-  level.slope_x.reserve(level.count() + RayLevel::kSlopeMargin);
-  level.slope_y.reserve(level.count() + RayLevel::kSlopeMargin);
+  level.slope_x.reserve(level.count());
+  level.slope_y.reserve(level.count());
   for (const double beta : level.rows.angle_rad)
     for (const double alpha : level.columns.angle_rad) {
       level.slope_x.push_back(static_cast<float>(std::tan(alpha)));
       level.slope_y.push_back(static_cast<float>(std::tan(beta) / std::cos(alpha)));
     }
-  level.slope_x.resize(level.count() + RayLevel::kSlopeMargin, 0.0f);
-  level.slope_y.resize(level.count() + RayLevel::kSlopeMargin, 0.0f);
 }
 
-// Lanes in Morton order: four neighbouring parents are a square, and so are their children in a packet.
+// Lanes in Morton order: four neighbours are a square, and so are their children in a packet.
 void fillTiles(RayLevel& level) {
   RayTiles& tiles = level.tiles;
   const std::uint32_t rows = level.rows.count(), columns = level.columns.count();
@@ -87,15 +85,44 @@ void fillTiles(RayLevel& level) {
     }
 }
 
-void fillFamilies(RayLevel& level, const RayLevel& finer) {
-  const RayAxis &rows = level.rows, &columns = level.columns;
-  for (std::uint32_t j = 0; j < rows.count(); ++j)
-    for (std::uint32_t k = 0; k < columns.count(); ++k)
-      level.families.push_back(
-          {finer.index(rows.first_child[j], columns.first_child[k]),
-           static_cast<std::uint16_t>(rows.first_child[j + 1] - rows.first_child[j]),
-           static_cast<std::uint16_t>(columns.first_child[k + 1] - columns.first_child[k]),
-           level.leaves(j, k)});
+/// Completes a level whose rays are in family order.
+void finishOrder(RayLevel& level) {
+  RayFamilies& order = level.families;
+  std::vector<std::uint32_t> place(level.count());
+  for (std::uint32_t n = 0; n < level.count(); ++n) {
+    const std::uint32_t ray = order.ray[n];
+    place[ray] = n;
+    order.slope_x.push_back(level.slope_x[ray]);
+    order.slope_y.push_back(level.slope_y[ray]);
+  }
+  order.slope_x.resize(level.count() + RayFamilies::kMargin, 0.0f);
+  order.slope_y.resize(level.count() + RayFamilies::kMargin, 0.0f);
+  for (const std::uint32_t ray : level.tiles.ray) level.tiles.place.push_back(place[ray]);
+}
+
+/// The coarsest level is in the order of its tiles.
+void orderByTiles(RayLevel& coarsest) {
+  const RayTiles& tiles = coarsest.tiles;
+  for (std::size_t n = 0; n < tiles.ray.size(); ++n)
+    if (tiles.lanes[n / 16] >> (n % 16) & 1) coarsest.families.ray.push_back(tiles.ray[n]);
+  finishOrder(coarsest);
+}
+
+/// A finer level is in the order of its parents.
+void orderByParents(RayLevel& coarse, RayLevel& fine) {
+  const RayAxis &rows = coarse.rows, &columns = coarse.columns;
+  std::vector<std::uint32_t>& children = fine.families.ray;
+  for (const std::uint32_t ray : coarse.families.ray) {
+    const std::uint32_t j = ray / columns.count(), k = ray % columns.count();
+    const auto first = static_cast<std::uint32_t>(children.size());
+    for (std::uint32_t r = rows.first_child[j]; r < rows.first_child[j + 1]; ++r)
+      for (std::uint32_t c = columns.first_child[k]; c < columns.first_child[k + 1]; ++c)
+        children.push_back(fine.index(r, c));
+    const std::uint32_t count = static_cast<std::uint32_t>(children.size()) - first;
+    coarse.families.family.push_back({first, count, coarse.leaves(j, k)});
+    coarse.families.most_children = std::max(coarse.families.most_children, count);
+  }
+  finishOrder(fine);
 }
 
 RayLevel makeLevel(const RaySensor& sensor, double voxel_size_m) {
@@ -148,8 +175,9 @@ RayTree::RayTree(const RaySensor& sensor, double voxel_size_m, int coarse_levels
     linkAxis(coarse.columns, fine.columns);
     countChildren(fine.rows, coarse.rows);
     countChildren(fine.columns, coarse.columns);
-    fillFamilies(coarse, fine);
   }
+  orderByTiles(levels_.back());
+  for (int i = coarse_levels; i > 0; --i) orderByParents(levels_[i], levels_[i - 1]);
 }
 
 Eigen::Vector3d RayLevel::direction(std::uint32_t row, std::uint32_t column) const {

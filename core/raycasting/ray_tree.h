@@ -35,11 +35,22 @@ struct RayAxis {
   std::uint32_t count() const { return static_cast<std::uint32_t>(angle_rad.size()); }
 };
 
+/// Rays of a level in family order, for the casting kernels: children of a ray follow each other, and so do
+/// those of its neighbours.
+struct RayFamilies {
+  std::vector<std::uint32_t> ray;       ///< RayLevel::index()
+  std::vector<float> slope_x, slope_y;  ///< of these rays, and kMargin entries beyond
+  std::vector<RayFamily> family;        ///< of these rays; empty on the finest level
+  std::uint32_t most_children = 0;      ///< of a family
+  static constexpr int kMargin = 8;
+};
+
 /// Rays of a level in tiles of 4 x 4, the packets of the casting kernels: 16 entries a tile. Lanes beyond the
 /// grid of rays repeat a ray and are masked out.
 struct RayTiles {
   std::vector<float> slope_x, slope_y;
   std::vector<std::uint32_t> ray;    ///< RayLevel::index()
+  std::vector<std::uint32_t> place;  ///< in family order
   std::vector<std::uint16_t> lanes;  ///< one mask a tile
 };
 
@@ -57,10 +68,9 @@ struct RayLevel {
     return rows.leaves[row] * columns.leaves[column];  // lf(r)
   }
   Eigen::Vector3d direction(std::uint32_t row, std::uint32_t column) const;
-  /// The same as slopes x/z and y/z, for the casting kernels; index() order, and kSlopeMargin entries beyond.
+  /// The same as slopes x/z and y/z, in single precision as all casters use them; index() order.
   std::vector<float> slope_x, slope_y;
-  static constexpr int kSlopeMargin = 4;
-  std::vector<RayFamily> families;  ///< index() order; empty on the finest
+  RayFamilies families;
   RayTiles tiles;
 };
 

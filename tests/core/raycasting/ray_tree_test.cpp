@@ -94,22 +94,23 @@ TEST(RayTree, EveryRayHasOneParentAndEveryInnerRayAChild) {
     const RayTree tree(sensor, 0.01, 4);
     for (int i = 1; i <= 4; ++i) {
       const RayLevel &coarse = tree.level(i), &fine = tree.level(i - 1);
+      const std::vector<std::uint32_t>& order = fine.families.ray;
       std::vector<int> parents(fine.count(), 0);
-      ASSERT_EQ(coarse.families.size(), coarse.count());
-      for (std::uint32_t j = 0; j < coarse.rows.count(); ++j)
-        for (std::uint32_t k = 0; k < coarse.columns.count(); ++k) {
-          const RayFamily& family = coarse.families[coarse.index(j, k)];
-          ASSERT_GE(family.rows, 1);
-          ASSERT_GE(family.columns, 1);
-          EXPECT_EQ(family.leaves, coarse.leaves(j, k));
-          for (std::uint32_t r = 0; r < family.rows; ++r)
-            for (std::uint32_t c = 0; c < family.columns; ++c) {
-              const std::uint32_t child = family.first_child + r * fine.columns.count() + c;
-              ++parents[child];
-              EXPECT_EQ(fine.rows.parent[child / fine.columns.count()], j);
-              EXPECT_EQ(fine.columns.parent[child % fine.columns.count()], k);
-            }
+      ASSERT_EQ(coarse.families.family.size(), coarse.count());
+      ASSERT_EQ(order.size(), fine.count());
+      for (std::uint32_t n = 0; n < coarse.count(); ++n) {
+        const RayFamily& family = coarse.families.family[n];
+        const std::uint32_t j = coarse.families.ray[n] / coarse.columns.count();
+        const std::uint32_t k = coarse.families.ray[n] % coarse.columns.count();
+        ASSERT_GE(family.children, 1u);
+        ASSERT_LE(family.children, coarse.families.most_children);
+        EXPECT_EQ(family.leaves, coarse.leaves(j, k));
+        for (std::uint32_t c = family.first_child; c < family.first_child + family.children; ++c) {
+          ++parents[order[c]];
+          EXPECT_EQ(fine.rows.parent[order[c] / fine.columns.count()], j);
+          EXPECT_EQ(fine.columns.parent[order[c] % fine.columns.count()], k);
         }
+      }
       EXPECT_EQ(std::count(parents.begin(), parents.end(), 1), static_cast<int>(fine.count()));
     }
   }
@@ -127,10 +128,11 @@ TEST(RayTree, LiteralAnchorHasAtMostFourToTheMLeaves) {
     EXPECT_DOUBLE_EQ(level.columns.angle_rad.front(), -sensor.horizontal_fov_rad / 2);
     EXPECT_DOUBLE_EQ(level.rows.angle_rad.front(), -sensor.vertical_fov_rad / 2);
     if (i == 0) continue;
-    for (const RayFamily& family : level.families) {
-      EXPECT_LE(family.rows, 2);
-      EXPECT_LE(family.columns, 2);
-    }
+    for (const RayAxis* axis : {&level.rows, &level.columns})
+      for (std::uint32_t n = 0; n < axis->count(); ++n) {
+        EXPECT_GE(axis->first_child[n + 1] - axis->first_child[n], 1u);
+        EXPECT_LE(axis->first_child[n + 1] - axis->first_child[n], 2u);
+      }
   }
 }
 
@@ -199,6 +201,10 @@ TEST(RayTree, TilesHoldEveryRayOnce) {
       const std::uint32_t ray = level.tiles.ray[n];
       EXPECT_EQ(level.tiles.slope_x[n], level.slope_x[ray]);
       EXPECT_EQ(level.tiles.slope_y[n], level.slope_y[ray]);
+      const std::uint32_t place = level.tiles.place[n];
+      EXPECT_EQ(level.families.ray[place], ray);
+      EXPECT_EQ(level.families.slope_x[place], level.slope_x[ray]);
+      EXPECT_EQ(level.families.slope_y[place], level.slope_y[ray]);
       times[ray] += (level.tiles.lanes[n / 16] >> (n % 16)) & 1;
     }
     EXPECT_EQ(std::count(times.begin(), times.end(), 1), static_cast<int>(level.count()));
