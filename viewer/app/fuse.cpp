@@ -12,6 +12,7 @@
 #include "io/cloud_file.h"
 #include "io/dataset.h"
 #include "io/octree_file.h"
+#include "io/text_file.h"
 #include "io/volume_file.h"
 #include "viewer/app/command.h"
 #include "viewer/app/console.h"
@@ -187,6 +188,8 @@ void fuseOctree(const GlobalOptions& global, const FuseOptions& options, const D
 
 int fuse(const GlobalOptions& global, const FuseOptions& options) {
   checkOptions(global, options);
+  for (const std::string& file : {options.output, options.mesh, options.cloud})
+    if (!file.empty()) requireCreatable(file);  // before the work, not after it
   Dataset dataset = openDataset(options.dataset);
   const Settings settings = datasetSettings(global, dataset);
   (isOctree(options) ? fuseOctree : fuseVolume)(global, options, dataset, settings);
