@@ -1,5 +1,7 @@
 #include <immintrin.h>
 
+#include <array>
+
 #include "core/raycasting/cast_packet.h"
 
 namespace vantage::casting {
@@ -9,6 +11,16 @@ namespace {
 struct Mask8 {
   __m256i m;
 };
+
+/// Byte n of entry m is the n-th lane of mask m.
+constexpr std::array<std::uint64_t, 256> makeLanesFirst() {
+  std::array<std::uint64_t, 256> table{};
+  for (unsigned mask = 0; mask < 256; ++mask)
+    for (unsigned lane = 0, n = 0; lane < 8; ++lane)
+      if (mask >> lane & 1) table[mask] |= std::uint64_t{lane} << (8 * n++);
+  return table;
+}
+constexpr std::array<std::uint64_t, 256> kLanesFirst = makeLanesFirst();
 
 /// 8 rays at a time.
 struct Avx2 {
@@ -32,8 +44,16 @@ struct Avx2 {
   static M inverse(M a) { return {_mm256_xor_si256(a.m, all(-1))}; }
 
   static F load(const float* from) { return _mm256_loadu_ps(from); }
+  static I load(const std::uint32_t* from) { return _mm256_loadu_si256(reinterpret_cast<const I*>(from)); }
+  static I load(const std::int32_t* from) { return _mm256_loadu_si256(reinterpret_cast<const I*>(from)); }
   static void store(float* to, F x) { _mm256_storeu_ps(to, x); }
   static void store(std::int32_t* to, I x) { _mm256_storeu_si256(reinterpret_cast<I*>(to), x); }
+  /// The lanes of a mask first, in their order.
+  static I pack(M m, I x) {
+    const __m128i bytes = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(&kLanesFirst[bits(m)]));
+    return _mm256_permutevar8x32_epi32(x, _mm256_cvtepu8_epi32(bytes));
+  }
+  static F pack(M m, F x) { return _mm256_castsi256_ps(pack(m, _mm256_castps_si256(x))); }
   static F toFloat(I x) { return _mm256_cvtepi32_ps(x); }
   static I truncate(F x) { return _mm256_cvttps_epi32(x); }
   static I floor(F x) { return _mm256_cvttps_epi32(_mm256_floor_ps(x)); }

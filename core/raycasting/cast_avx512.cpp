@@ -24,8 +24,13 @@ struct Avx512 {
   static M inverse(M a) { return _knot_mask16(a); }
 
   static F load(const float* from) { return _mm512_loadu_ps(from); }
+  static I load(const std::uint32_t* from) { return _mm512_loadu_si512(from); }
+  static I load(const std::int32_t* from) { return _mm512_loadu_si512(from); }
   static void store(float* to, F x) { _mm512_storeu_ps(to, x); }
   static void store(std::int32_t* to, I x) { _mm512_storeu_si512(to, x); }
+  /// The lanes of a mask first, in their order.
+  static F pack(M m, F x) { return _mm512_maskz_compress_ps(m, x); }
+  static I pack(M m, I x) { return _mm512_maskz_compress_epi32(m, x); }
   static F toFloat(I x) { return _mm512_cvtepi32_ps(x); }
   static I truncate(F x) { return _mm512_cvttps_epi32(x); }
   static I floor(F x) { return _mm512_cvt_roundps_epi32(x, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC); }

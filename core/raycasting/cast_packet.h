@@ -28,7 +28,8 @@ struct Packet {
   I first[3];  ///< first voxel inside the grid
   F t;         ///< entry into the current voxel
   M live, hit, entered;
-  int number;  ///< of the packet's first ray in its list
+  F slope_x, slope_y;
+  I ray;  ///< place in family order, if the packet is one of a list
 };
 
 /// True where plane `plane` of `axis` is crossed before or at the event (t, event_axis).
@@ -61,6 +62,8 @@ typename L::F position(const Bundle& b, const Packet<L>& p, int axis, typename L
 template <class L>
 void aim(const Bundle& b, const float* slope_x, const float* slope_y, Packet<L>& p) {
   const auto x = L::load(slope_x), y = L::load(slope_y);
+  p.slope_x = x;
+  p.slope_y = y;
   const auto length = L::sqrt(L::add(L::add(L::mul(x, x), L::mul(y, y)), L::all(1.0f)));
   p.length = length;
   p.near_t = L::div(L::all(b.min_range_m), length);
@@ -193,13 +196,14 @@ void jump(const Bundle& b, Packet<L>& p, typename L::I radius) {
   through[1] = L::both(L::inverse(through[0]), L::equal(when[1], t));
   through[2] = L::inverse(L::either(through[0], through[1]));
 
-  const auto same = L::equal(t, p.end_t);
-  auto over = L::less(p.end_t, t);
-  const auto axis = L::select(through[0], L::all(0), L::select(through[1], L::all(1), L::all(2)));
-  if (L::any(L::both(p.live, same)))
-    over = L::either(over, L::both(same, L::inverse(L::less(axis, p.end_axis))));
-  p.live = L::both(p.live, L::inverse(over));
-  if (!L::any(p.live)) return;
+  const auto axisOfEvent = [&] {
+    return L::select(through[0], L::all(0), L::select(through[1], L::all(1), L::all(2)));
+  };
+  if (const auto late = L::both(p.live, L::inverse(L::less(t, p.end_t))); L::any(late)) {
+    const auto before = L::both(L::equal(t, p.end_t), L::less(axisOfEvent(), p.end_axis));
+    p.live = L::both(p.live, L::inverse(L::both(late, L::inverse(before))));
+    if (!L::any(p.live)) return;
+  }
 
   typename L::I guess[3];
   auto doubtful = L::none();
@@ -210,8 +214,10 @@ void jump(const Bundle& b, Packet<L>& p, typename L::I radius) {
     const auto close = L::either(L::less(part, L::all(b.doubt)), L::less(L::all(1.0f - b.doubt), part));
     doubtful = L::either(doubtful, L::both(close, L::inverse(through[a])));
   }
-  if (L::any(L::both(p.live, doubtful)))
+  if (L::any(L::both(p.live, doubtful))) {
+    const auto axis = axisOfEvent();
     for (int a = 0; a < 3; ++a) guess[a] = corrected<L>(b, p, a, guess[a], t, axis);
+  }
   for (int a = 0; a < 3; ++a) {
     const auto beyond = L::select(p.forward[a], face[a], L::sub(face[a], L::all(1)));
     p.at[a] = L::select(p.live, L::select(through[a], beyond, guess[a]), p.at[a]);
@@ -298,6 +304,7 @@ class TilePackets {
     }
     return false;
   }
+  void thin(Packet<L>&) {}
   void take(Packet<L>& p) { collect<L>(bundle_, p, totals_); }
 
  private:
@@ -337,7 +344,7 @@ void resume(const Bundle& b, typename L::F start_m, Packet<L>& p) {
 }
 
 /// Sum of the finest rays below some rays of a packet.
-inline std::uint64_t leavesOf(const RayFamily* families, const std::uint32_t* ray, unsigned lanes) {
+inline std::uint64_t leavesOf(const RayFamily* families, const std::int32_t* ray, unsigned lanes) {
   std::uint64_t leaves = 0;
   for (; lanes; lanes &= lanes - 1) leaves += families[ray[__builtin_ctz(lanes)]].leaves;
   return leaves;
@@ -364,7 +371,7 @@ inline void refine(const Refinement& r, const RayFamily& family, float start_m, 
 
 /// What becomes of the rays of a coarse level: they are refined, or count for all finest rays below them.
 template <class L>
-void descend(const Bundle& b, Packet<L>& p, const std::uint32_t* ray, const Refinement& r, Totals& totals) {
+void descend(const Bundle& b, Packet<L>& p, const Refinement& r, Totals& totals) {
   finish<L>(b, p);
   totals.visited += visits<L>(p);
   if (!L::any(p.hit)) return;
@@ -374,6 +381,8 @@ void descend(const Bundle& b, Packet<L>& p, const std::uint32_t* ray, const Refi
   const auto inside = L::both(counted, L::both(inBounds<L>(b, p), inSphere<L>(b, centerDistance2<L>(b, p))));
   const unsigned unknown = L::bits(unknownHits<L>(b, p));
   const unsigned in = L::bits(inside), out = L::bits(counted) & ~in;
+  std::int32_t ray[L::kWidth];
+  L::store(ray, p.ray);
   totals.unknown_outside += leavesOf(r.families, ray, out & unknown);  // D-A8, D-A9
   unsigned refined = in;
   if (!r.refine_unknown) {
@@ -393,7 +402,53 @@ void descend(const Bundle& b, Packet<L>& p, const std::uint32_t* ray, const Refi
   r.children->count = children.count;
 }
 
-/// Packets of a list of rays, one after the other.
+/// Rays on their way that were taken out of packets with few of them left, to be packed anew.
+template <class L>
+class StrayRays {
+ public:
+  int count() const { return count_; }
+  bool isFull() const { return count_ >= L::kWidth; }
+
+  /// Takes the live rays out of a packet. \pre !isFull()
+  void take(Packet<L>& p) {
+    const auto live = p.live;
+    L::store(slope_x_ + count_, L::pack(live, p.slope_x));
+    L::store(slope_y_ + count_, L::pack(live, p.slope_y));
+    L::store(t_ + count_, L::pack(live, p.t));
+    L::store(ray_ + count_, L::pack(live, p.ray));
+    for (int a = 0; a < 3; ++a) {
+      L::store(at_[a] + count_, L::pack(live, p.at[a]));
+      L::store(first_[a] + count_, L::pack(live, p.first[a]));
+    }
+    count_ += __builtin_popcount(L::bits(live));
+    p.entered = L::both(p.entered, L::inverse(live));
+    p.live = L::none();
+  }
+
+  /// A packet of the last rays taken. \pre count() > 0
+  void give(const Bundle& b, Packet<L>& p) {
+    const int lanes = isFull() ? L::kWidth : count_;
+    count_ -= lanes;
+    aim<L>(b, slope_x_ + count_, slope_y_ + count_, p);
+    p.t = L::load(t_ + count_);
+    p.ray = L::load(ray_ + count_);
+    for (int a = 0; a < 3; ++a) {
+      p.at[a] = L::load(at_[a] + count_);
+      p.first[a] = L::load(first_[a] + count_);
+    }
+    p.hit = L::none();
+    p.entered = p.live = L::lanes((1u << lanes) - 1);
+  }
+
+ private:
+  static constexpr int kRoom = 2 * L::kWidth;  ///< a whole packet is stored at any count below kWidth
+  float slope_x_[kRoom] = {}, slope_y_[kRoom] = {}, t_[kRoom] = {};
+  std::int32_t ray_[kRoom] = {}, at_[3][kRoom] = {}, first_[3][kRoom] = {};
+  int count_ = 0;
+};
+
+/// Packets of a list of rays, one after the other. Rays that outlive most of their packet are packed anew:
+/// beside an object some rays hit it at once, and others go on to the wall.
 template <class L>
 class ListPackets {
  public:
@@ -402,33 +457,47 @@ class ListPackets {
 
   bool next(Packet<L>& p) {
     constexpr unsigned kMask = (1u << L::kWidth) - 1;
-    while (first_ < list_.count) {
+    while (first_ < list_.count && !strays_.isFull()) {
       const std::uint32_t first = first_;
       first_ += L::kWidth;
       const std::uint32_t left = list_.count - first;
       unsigned lanes = left < L::kWidth ? (1u << left) - 1 : kMask;
       if (list_.lanes) lanes &= list_.lanes[first / 16] >> (first % 16);
       if (!lanes) continue;
-      p.number = static_cast<int>(first);
+      p.ray = L::load(list_.ray + first);
       start<L>(bundle_, list_.slope_x + first, list_.slope_y + first, lanes, p);
       if (list_.start_m) resume<L>(bundle_, L::load(list_.start_m + first), p);
       return true;
     }
-    return false;
+    if (strays_.count() == 0) return false;
+    strays_.give(bundle_, p);
+    return true;
   }
+
+  /// Called after every step.
+  void thin(Packet<L>& p) {
+    if constexpr (L::kWidth > 1) {
+      const int live = __builtin_popcount(L::bits(p.live));
+      if (live > kFew || live == 0 || strays_.isFull()) return;
+      if (first_ < list_.count || strays_.count() + live >= L::kWidth) strays_.take(p);
+    }
+  }
+
   void take(Packet<L>& p) {
     if (refinement_.families)
-      descend<L>(bundle_, p, list_.ray + p.number, refinement_, totals_);
+      descend<L>(bundle_, p, refinement_, totals_);
     else
       collect<L>(bundle_, p, totals_);
   }
 
  private:
+  static constexpr int kFew = L::kWidth / 2;  ///< rays
   const Bundle& bundle_;
   const RayList& list_;
   const Refinement& refinement_;
   Totals& totals_;
   std::uint32_t first_ = 0;
+  StrayRays<L> strays_;
 };
 
 /// Casts packets with `kPackets` on their way at a time: while one waits for memory the others go on.
@@ -444,6 +513,7 @@ void castPackets(const Bundle& b, Packets& source) {
         const auto voxel = linear<L>(b, p);
         const auto radius = stop<L>(b, p, voxel, L::gather(b.grid.radius, voxel, p.live));
         jump<L>(b, p, radius);
+        source.thin(p);
         continue;
       }
       source.take(p);

@@ -26,8 +26,14 @@ struct Single {
   static M inverse(M a) { return !a; }
 
   static F load(const float* from) { return *from; }
+  static I load(const std::uint32_t* from) { return static_cast<I>(*from); }
+  static I load(const std::int32_t* from) { return *from; }
   static void store(float* to, F x) { *to = x; }
   static void store(std::int32_t* to, I x) { *to = x; }
+  template <class T>
+  static T pack(M, T x) {
+    return x;
+  }
   static F toFloat(I x) { return static_cast<float>(x); }
   static I truncate(F x) { return static_cast<I>(x); }
   static I floor(F x) { return static_cast<I>(std::floor(x)); }
