@@ -48,6 +48,8 @@ config::Value otherValue(const config::Field& field) {
         if (choice != std::get<std::string>(current)) return choice;
       ADD_FAILURE() << field.key << " has one choice only";
       return current;
+    case config::Kind::Names:
+      return field.choices.back() + "," + field.choices.front();
     case config::Kind::Integer: {
       const auto value = std::get<std::int64_t>(current);
       return value < static_cast<std::int64_t>(field.high) ? value + 1 : value - 1;
