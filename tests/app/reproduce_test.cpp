@@ -34,7 +34,7 @@ TEST(Reproduce, PrintsTheTableAndTheSummaryAndWritesThreeForms) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / file)) << file;
   EXPECT_EQ(readFile(folder.path() / "report.json"), readFile(folder.path() / "out/report.json"));
   const auto json = nlohmann::json::parse(readFile(folder.path() / "report.json"));
-  EXPECT_EQ(json["tables"]["a1"]["rows"].size(), 3u);
+  EXPECT_GE(json["tables"]["a1"]["rows"].size(), 3u);
 }
 
 TEST(Reproduce, TakesAMesh) {

@@ -98,8 +98,9 @@ RateRun measureRun(const ExplorationConfig& config, DepthCamera& camera, Robot& 
     const Timings& t = record->timings;
     run.steps.push_back(
         {t.sense.value_or(0), t.fuse.value_or(0),
-         t.generation.value_or(0) + evaluationTime_s(input, config.hierarchical, search.evaluation_s,
-                                                     options.repeats, options.control),
+         t.generation.value_or(0) +
+             evaluationTime(input, config.hierarchical, search.evaluation_s, options.repeats, options.control)
+                 .wall_s,
          t.motion_planning.value_or(0)});
     run.candidates += static_cast<double>(search.counts.poses_generated);
     run.scored += static_cast<double>(search.counts.poses_scored);

@@ -12,9 +12,16 @@ double median(std::vector<double> values);
 /// The candidates of an evaluation that has been made.
 std::vector<ViewCandidate> candidatesOf(const UtilitySearch& search);
 
-/// Wall-clock seconds of the evaluation stage on the inputs of a step (evaluation.md, section 1): a first
+/// Seconds of one evaluation stage.
+struct EvaluationTime {
+  double wall_s = 0.0;
+  double cpu_s = 0.0;  ///< of all threads: on a shared machine it tells more than the clock on the wall
+};
+
+/// Times the evaluation stage on the inputs of a step (evaluation.md, section 1). Wall clock: a first
 /// evaluation of a second or more stands, a shorter one was the warm-up, and the median of `repeats` counts.
-double evaluationTime_s(const UtilityInput& input, const HierarchicalPlannerConfig& config, double first_s,
-                        int repeats, const RunControl& control);
+/// With no repeats nothing is measured: the first evaluation stands, and there is no CPU time.
+EvaluationTime evaluationTime(const UtilityInput& input, const HierarchicalPlannerConfig& config,
+                              double first_s, int repeats, const RunControl& control);
 
 }  // namespace vantage::experiments

@@ -37,8 +37,9 @@ class Meter {
     const UtilityInput input{*world.pyramid(), tree_, box_, candidates_, current, executed_};
 
     IterationResult step = countsOf(search);
-    step.nbv_s = record.timings.generation.value_or(0.0) +
-                 evaluationTime_s(input, config_, search.evaluation_s, repeats_, control_);
+    const EvaluationTime time = evaluationTime(input, config_, search.evaluation_s, repeats_, control_);
+    step.nbv_s = record.timings.generation.value_or(0.0) + time.wall_s;
+    step.cpu_s = time.cpu_s;
     if (step.literal_stop && result_.literal_stop == 0) result_.literal_stop = record.step;
     result_.iterations.push_back(step);
     if (record.step == 1) measureHidden(input);
@@ -168,6 +169,11 @@ double RunResult::meanNbv_s() const {
   return iterations.empty() ? 0.0 : totalNbv_s() / static_cast<double>(iterations.size());
 }
 
+double RunResult::meanCpu_s() const {
+  double sum = 0.0;
+  for (const IterationResult& step : iterations) sum += step.cpu_s;
+  return iterations.empty() ? 0.0 : sum / static_cast<double>(iterations.size());
+}
 double RunResult::secondsPerCandidate() const {
   std::uint64_t candidates = 0;
   for (const IterationResult& step : iterations) candidates += step.candidates;

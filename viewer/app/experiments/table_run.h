@@ -45,6 +45,7 @@ struct RunSpec {
 /// What one planning step did.
 struct IterationResult {
   double nbv_s = 0.0;  ///< candidates, cascade and choice, without motion planning
+  double cpu_s = 0.0;  ///< CPU time of cascade and choice, all threads
   std::uint64_t candidates = 0, scored = 0, survivors = 0, rays = 0, finest_rays = 0, visits = 0;
   std::uint64_t occupied_rays = 0, unknown_rays = 0;  ///< over all views
   std::uint64_t unknown_voxels = 0;                   ///< in the object's box, after the scan
@@ -77,6 +78,7 @@ struct RunResult {
   std::uint64_t wrong_labels = 0;  ///< voxels and nodes of the pyramid that the octree labels otherwise
   double meanNbv_s() const;
   double totalNbv_s() const;
+  double meanCpu_s() const;
   double secondsPerCandidate() const;
 };
 
