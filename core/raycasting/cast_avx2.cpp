@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/raycasting/cast_packet.h"
+#include "core/raycasting/cast_list.h"
 
 namespace vantage::casting {
 namespace {

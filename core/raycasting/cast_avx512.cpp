@@ -1,6 +1,6 @@
 #include <immintrin.h>
 
-#include "core/raycasting/cast_packet.h"
+#include "core/raycasting/cast_list.h"
 
 namespace vantage::casting {
 namespace {

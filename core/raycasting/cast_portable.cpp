@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/raycasting/cast_packet.h"
+#include "core/raycasting/cast_list.h"
 
 namespace vantage::casting {
 namespace {
