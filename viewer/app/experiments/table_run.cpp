@@ -144,8 +144,9 @@ void measureAccuracy(const TableSetup& setup, const WorldModel& world, const Box
 /// Why a run without a further view ended.
 std::string refined(const std::string& stop_reason, const RunResult& result) {
   if (stop_reason != "finished" || result.iterations.empty()) return stop_reason;
-  return result.iterations.back().survivors == 0 ? "finished: too little known surface in every view (h_oc)"
-                                                 : "finished: no view reaches h_stop";
+  return result.iterations.back().survivors == 0
+             ? "finished: too little known surface in every view (registration)"
+             : "finished: no view reaches h_stop";
 }
 
 ExplorationConfig configOf(const TableSetup& setup, const RunSpec& spec) {
