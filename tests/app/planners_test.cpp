@@ -125,7 +125,7 @@ TEST_F(PlannerCommands, UnknownPlannersAreRefusedWithTheKnownOnes) {
 }
 
 TEST_F(PlannerCommands, SettingsOutOfRangeAreRefused) {
-  expectRefused(explore("hierarchical", {"--set", "rays.coarse_levels=7"}),
+  expectRefused(explore("hierarchical", {"--set", "rays.coarse_levels=8"}),
                 {"rays.coarse_levels", "allowed"});
   expectRefused(explore("hierarchical", {"--set", "octree.voxel_size_m=0"}),
                 {"octree.voxel_size_m", "allowed"});
