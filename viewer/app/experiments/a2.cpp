@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "viewer/app/experiments/experiments.h"
 #include "viewer/app/experiments/table_run.h"
 
@@ -50,6 +52,8 @@ Report runA2(const ExperimentOptions& options) {
   const RunResult &max = runs[1], &mean = runs[2];
   const double kept = static_cast<double>(mean.iterations.at(0).occupied_rays) /
                       std::max<double>(1.0, static_cast<double>(max.iterations.at(0).occupied_rays));
+  const double unknown_kept = static_cast<double>(mean.iterations.at(0).unknown_rays) /
+                              std::max<double>(1.0, static_cast<double>(max.iterations.at(0).unknown_rays));
   Report report;
   report.defaults = defaultsUsed(setup.settings);
   report.tables = {resultTable(setup, runs)};
@@ -59,6 +63,10 @@ Report runA2(const ExperimentOptions& options) {
                                fmt::format("{} and {:.1f} %, max {} and {:.1f} %", mean.scans,
                                            100 * mean.coverage, max.scans, 100 * max.coverage),
                                mean.scans > max.scans || mean.coverage < max.coverage)};
+  report.claims[0].remark += fmt::format(
+      "; unknown rays {:.1f} % of max: rims that are free in part read free, and rays that pass "
+      "them can reach the surface behind",
+      100 * unknown_kept);
   LinePlot unknown{"A2: unknown voxels in the object's box", "scan", "unknown voxels", {}};
   for (const RunResult& run : runs) unknown.series.push_back({run.spec.label(), run.unknown_per_scan});
   report.lines = {std::move(unknown)};
