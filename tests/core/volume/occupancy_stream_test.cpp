@@ -270,7 +270,7 @@ TEST(OccupancyStream, NoDamageIsMistakenForMoreThanTheFileHolds) {
 
 TEST(OccupancyStream, RealMapsHaveTheirKnownVolumes) {
   const std::filesystem::path folder = std::filesystem::path(VANTAGE_TEST_DATA) / "octomap";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "recorded maps not here: " << folder;
   const auto volumes = [&](const char* name) {
     std::ifstream in(folder / name, std::ios::binary);
     const OccupancyOctree map = OccupancyOctree::read(in, std::nullopt, {});
