@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "core/volume/free_radius.h"
+#include "core/volume/tsdf_volume.h"
 
 namespace vantage {
 namespace {

@@ -4,9 +4,14 @@
 #include <span>
 #include <vector>
 
-#include "core/volume/tsdf_volume.h"
+#include "core/geometry/grid_geometry.h"
+#include "core/volume/bricks.h"
+#include "core/volume/bulk_memory.h"
+#include "core/volume/voxel_state.h"
 
 namespace vantage {
+
+class TsdfVolume;
 
 /// The one answer to "is this voxel unknown, free or occupied?" that ray casters, collision checks and the
 /// viewer read. Derived from a map and updated by the bricks that changed; one byte a voxel for the state,

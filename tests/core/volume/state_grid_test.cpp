@@ -5,6 +5,8 @@
 
 #include <random>
 
+#include "core/volume/tsdf_volume.h"
+
 namespace vantage {
 namespace {
 
