@@ -41,6 +41,9 @@ struct OccupancyOctree::Data {
   /// \return voxels that changed
   template <class Next>
   std::uint64_t rewrite(const Eigen::Vector3i& block, BrickSet& changed, const Next& next);
+  /// The same for every block that a box of the grid meets.
+  template <class Next>
+  void rewriteBlocksOf(const octree::KeyBox& box, BrickSet& changed, const Next& next);
 
   GridGeometry geometry;
   BrickLayout bricks;
@@ -74,6 +77,15 @@ std::uint64_t OccupancyOctree::Data::rewrite(const Eigen::Vector3i& block, Brick
   }
   if (count > 0) nodes.writeBlock(block, values);
   return count;
+}
+
+template <class Next>
+void OccupancyOctree::Data::rewriteBlocksOf(const octree::KeyBox& box, BrickSet& changed, const Next& next) {
+  const Eigen::Vector3i first = box.begin / octree::kBlock;
+  const Eigen::Vector3i last = (box.end - Eigen::Vector3i::Ones()) / octree::kBlock;
+  for (int z = first.z(); z <= last.z(); ++z)
+    for (int y = first.y(); y <= last.y(); ++y)
+      for (int x = first.x(); x <= last.x(); ++x) rewrite({x, y, z}, changed, next);
 }
 
 }  // namespace vantage

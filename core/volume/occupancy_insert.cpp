@@ -76,7 +76,7 @@ struct Cross {
         stride(axis == 0   ? 1
                : axis == 1 ? g.size.x()
                            : static_cast<std::ptrdiff_t>(g.size.x()) * g.size.y()) {}
-  /// Voxel at a distance along the main axis. Clamped before rounding down, so it stays in the grid.
+  /// Voxel at a distance along the main axis, clamped to those between both ends.
   int at(double along) const { return std::clamp(static_cast<int>(from + slope * along), low, high); }
   /// Parameter at which the line goes from one voxel to its neighbour.
   double crossing(int a, int b) const { return (std::max(a, b) - from) * inverse; }

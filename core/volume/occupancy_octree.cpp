@@ -247,16 +247,11 @@ void OccupancyOctree::setBrick(std::uint32_t brick, std::span<const float> log_o
   const auto equal = [&](float x) { return x == log_odds[0] || (std::isnan(x) && std::isnan(log_odds[0])); };
   if (std::all_of(log_odds.begin(), log_odds.end(), equal)) return data_->fill(keys, log_odds[0]);
   BrickSet changed(data_->bricks.total());
-  const Eigen::Vector3i first = keys.begin / octree::kBlock;
-  const Eigen::Vector3i last = (keys.end - Eigen::Vector3i::Ones()) / octree::kBlock;
-  for (int z = first.z(); z <= last.z(); ++z)
-    for (int y = first.y(); y <= last.y(); ++y)
-      for (int x = first.x(); x <= last.x(); ++x)
-        data_->rewrite({x, y, z}, changed, [&](float value, std::size_t at) {
-          const Eigen::Vector3i v = data_->geometry.voxel(at) - r.begin;
-          if ((v.array() < 0).any() || (v.array() >= size.array()).any()) return value;
-          return log_odds[(static_cast<std::size_t>(v.z()) * size.y() + v.y()) * size.x() + v.x()];
-        });
+  data_->rewriteBlocksOf(keys, changed, [&](float value, std::size_t at) {
+    const Eigen::Vector3i v = data_->geometry.voxel(at) - r.begin;
+    if ((v.array() < 0).any() || (v.array() >= size.array()).any()) return value;
+    return log_odds[(static_cast<std::size_t>(v.z()) * size.y() + v.y()) * size.x() + v.x()];
+  });
 }
 
 void OccupancyOctree::set(const Eigen::Vector3i& voxel, float log_odds) {
@@ -276,18 +271,11 @@ BrickSet OccupancyOctree::clearSphere(const Eigen::Vector3d& center_world, doubl
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(radius_m);
   const KeyBox near = voxelsIn(d.geometry, Box(center_world - margin, center_world + margin));
   if (near.empty()) return changed;
-  const KeyBox keys = d.keysOf(near.begin, near.end);
-  const Eigen::Vector3i first = keys.begin / octree::kBlock;
-  const Eigen::Vector3i last = (keys.end - Eigen::Vector3i::Ones()) / octree::kBlock;
-  for (int z = first.z(); z <= last.z(); ++z)
-    for (int y = first.y(); y <= last.y(); ++y)
-      for (int x = first.x(); x <= last.x(); ++x)
-        d.rewrite({x, y, z}, changed, [&](float value, std::size_t at) {
-          const Eigen::Vector3d p = d.geometry.center(d.geometry.voxel(at));
-          if ((p - center_world).norm() > radius_m || d.band.label(value) != VoxelState::Unknown)
-            return value;
-          return d.low;
-        });
+  d.rewriteBlocksOf(d.keysOf(near.begin, near.end), changed, [&](float value, std::size_t at) {
+    const Eigen::Vector3d p = d.geometry.center(d.geometry.voxel(at));
+    const bool near_enough = (p - center_world).norm() <= radius_m;
+    return near_enough && d.band.label(value) == VoxelState::Unknown ? d.low : value;
+  });
   return changed;
 }
 

@@ -10,7 +10,7 @@
 #include "core/geometry/depth_image.h"
 #include "core/geometry/grid_geometry.h"
 #include "core/geometry/pose.h"
-#include "core/volume/tsdf_volume.h"
+#include "core/volume/bricks.h"
 #include "core/volume/voxel_state.h"
 
 namespace vantage {
@@ -36,7 +36,9 @@ struct OccupancyConfig {
 
 /// Label of a log-odds value (D-A7).
 VoxelState occupancyLabel(double log_odds, const OccupancyConfig& config);
+/// 1 / (1 + exp(-L)).
 double probabilityOf(double log_odds);
+/// ln(p / (1 - p)); minus and plus infinity at 0 and 1, NaN outside [0, 1].
 double logOddsOf(double probability);
 
 /// occupancyLabel() prepared for many values.
@@ -94,9 +96,11 @@ class OccupancyOctree {
   /// count.
   VoxelState label(const Eigen::Vector3i& voxel, int level) const;
   /// Log-odds of a brick, x fastest within its range; NaN where nothing is stored. Descends once per brick.
+  /// \throws std::invalid_argument if there is room for another number of voxels.
   void readBrick(std::uint32_t brick, std::span<float> log_odds) const;
   /// Replaces a brick; NaN removes. \throws std::invalid_argument if the number of voxels differs.
   void setBrick(std::uint32_t brick, std::span<const float> log_odds);
+  /// Replaces a finest voxel; NaN removes. \throws std::invalid_argument outside the grid.
   void set(const Eigen::Vector3i& voxel, float log_odds);
 
   /// Fuses one depth image: each measurement is a ray from the camera; per voxel and image one hit or one

@@ -136,21 +136,18 @@ class OctreeNodes::Tree : public octomap::OcTree {
 
   /// Writes a run of `count` values, not all the same, below a node.
   void writeRun(Node* node, bool fresh, const float* values, int count) {
+    // Now, since a node that has lost its last child for a while looks like a leaf.
+    if (!fresh && isLeaf(node)) expandNode(node);
     const int part = count / 8;
     for (unsigned n = 0; n < 8; ++n, values += part) {
+      bool fresh_child = true;
       if (part > 1 && !sameBits(values, part)) {
-        bool fresh_child = fresh;
         Node* next = ensureChild(node, n, fresh_child);
-        fresh = false;
         writeRun(next, fresh_child, values, part);
       } else if (!std::isnan(*values)) {
-        bool fresh_child = fresh;
-        Node* next = ensureChild(node, n, fresh_child);
-        fresh = false;
-        becomeLeaf(next, *values);
-      } else {
-        if (!fresh && isLeaf(node)) expandNode(node);
-        if (nodeChildExists(node, n)) removeChild(node, n);
+        becomeLeaf(ensureChild(node, n, fresh_child), *values);
+      } else if (nodeChildExists(node, n)) {
+        removeChild(node, n);
       }
     }
     pruneNode(node);

@@ -45,8 +45,8 @@ inline Eigen::Vector3i blockVoxel(int n) {
 }
 
 /// An OctoMap tree seen as boxes of voxels. Leaves are pruned within blocks and where whole boxes are filled;
-/// the values of inner nodes are brought up to date when the tree is written, and never read. Const calls may
-/// run at the same time.
+/// the values of inner nodes are brought up to date when the tree is written, and mean nothing until then.
+/// Const calls may run at the same time.
 class OctreeNodes {
  public:
   explicit OctreeNodes(double voxel_size_m);
@@ -57,8 +57,11 @@ class OctreeNodes {
   std::optional<float> at(const Eigen::Vector3i& key) const;
   /// Values of a box, x fastest; NaN where nothing is stored.
   void read(const KeyBox& box, std::span<float> log_odds) const;
+  /// Values of the block whose first key is kBlock times `block`; NaN where nothing is stored.
   void readBlock(const Eigen::Vector3i& block, Block& log_odds) const;
+  /// Replaces a block; the quiet NaN of std::numeric_limits removes.
   void writeBlock(const Eigen::Vector3i& block, const Block& log_odds);
+  /// Gives every voxel of a box one value. \pre it is not NaN
   void fill(const KeyBox& box, float log_odds);
   /// Removes everything inside.
   void remove(const KeyBox& box);

@@ -5,6 +5,8 @@
 
 #include <random>
 
+#include "core/volume/octree_nodes.h"
+
 namespace vantage {
 namespace {
 
@@ -105,6 +107,25 @@ TEST(OccupancyOctree, MeanRuleFollowsTheTableOfSection103) {
   // What is not stored counts as 0.5.
   EXPECT_EQ(labelOfEight(InnerRule::Mean, 1, 0.1192, std::nullopt), VoxelState::Free);
   EXPECT_EQ(labelOfEight(InnerRule::Mean, 1, 0.45, std::nullopt), VoxelState::Unknown);
+}
+
+TEST(OctreeNodes, MeansAreThoseOfSection103) {
+  const auto mean = [](int count, double p, double p_others) {
+    octree::OctreeNodes nodes(0.1);
+    const Voxel corner = Voxel::Constant(octree::kKeys / 2);
+    for (int n = 0; n < 8; ++n) {
+      const Voxel at = corner + Voxel(n & 1, n >> 1 & 1, n >> 2);
+      nodes.fill({at, at + Voxel::Ones()}, static_cast<float>(logOddsOf(n < count ? p : p_others)));
+    }
+    return nodes.probabilitySum({corner, corner + Voxel::Constant(2)}) / 8;
+  };
+  EXPECT_NEAR(mean(3, 0.971, 0.1192), 0.4386, 5e-5);
+  EXPECT_NEAR(mean(4, 0.971, 0.1192), 0.5451, 5e-5);
+  EXPECT_NEAR(mean(7, 0.5, 0.1192), 0.4524, 5.1e-5);
+  EXPECT_NEAR(mean(8, 0.5, 0.1192), 0.5, 5e-5);
+  EXPECT_NEAR(mean(2, 0.7, 0.4), 0.475, 5e-5);
+  EXPECT_NEAR(mean(3, 0.7, 0.4), 0.5125, 5e-5);
+  EXPECT_NEAR(mean(4, 0.7, 0.4), 0.55, 5e-5);
 }
 
 TEST(OccupancyOctree, MaxRuleIsFreeOnlyIfAllOfTheNodeIs) {
@@ -248,6 +269,39 @@ TEST(OccupancyOctree, BricksRebuildAMap) {
     std::vector<float> wrong(3);
     EXPECT_THROW(copy.setBrick(0, wrong), std::invalid_argument);
     EXPECT_THROW(copy.readBrick(0, wrong), std::invalid_argument);
+  }
+}
+
+TEST(OccupancyOctree, ABrickReplacesWhateverWasThere) {
+  std::mt19937_64 random(6);
+  const float nothing = std::numeric_limits<float>::quiet_NaN();
+  const std::array<float, 4> values = {kHit, kMiss, nothing, nothing};
+  OccupancyOctree map = emptyMap(40);
+  const GridGeometry& g = map.geometry();
+  std::vector<float> expected(g.count(), nothing);
+  for (int n = 0; n < 400; ++n) {
+    const auto brick = static_cast<std::uint32_t>(random() % map.bricks().total());
+    const BrickRange r = map.bricks().range(brick);
+    std::vector<float> brick_values;
+    const bool coarse = random() % 2;  // cubes of two voxels have one value
+    const auto salt = random();
+    for (int k = r.begin.z(); k < r.end.z(); ++k)
+      for (int j = r.begin.y(); j < r.end.y(); ++j)
+        for (int i = r.begin.x(); i < r.end.x(); ++i) {
+          const int shift = coarse ? 1 : 0;
+          const std::uint64_t cell = salt + 0x9e3779b97f4a7c15u * (((k >> shift) * 64u + (j >> shift)) * 64u +
+                                                                   static_cast<unsigned>(i >> shift));
+          brick_values.push_back(values[(cell >> 40) % values.size()]);
+          expected[g.index(i, j, k)] = brick_values.back();
+        }
+    map.setBrick(brick, brick_values);
+  }
+  for (std::size_t at = 0; at < g.count(); ++at) {
+    const std::optional<float> value = map.logOdds(g.voxel(at));
+    ASSERT_EQ(value.has_value(), !std::isnan(expected[at])) << g.voxel(at).transpose();
+    if (value) {
+      ASSERT_EQ(*value, expected[at]);
+    }
   }
 }
 
