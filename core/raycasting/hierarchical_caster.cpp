@@ -1,6 +1,7 @@
 #include "core/raycasting/hierarchical_caster.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 
 #include "core/raycasting/hierarchical_view.h"
@@ -17,8 +18,12 @@ constexpr std::uint32_t kSlice = 64 * kPacket;
 /// Memory for the children of a slice.
 class RayBuffer {
  public:
-  explicit RayBuffer(std::uint32_t rays) {
+  /// Empties it and makes room.
+  void reserve(std::uint32_t rays) {
     static_assert(kPacket >= RayFamilies::kMargin);
+    list_.count = 0;
+    if (rays <= room_) return;
+    room_ = rays;
     const std::size_t size = rays + kPacket;
     slope_x_.reset(new float[size]);
     slope_y_.reset(new float[size]);
@@ -45,7 +50,15 @@ class RayBuffer {
   std::unique_ptr<float[]> slope_x_, slope_y_, start_m_;
   std::unique_ptr<std::uint32_t[]> ray_;
   ChildList list_;
+  std::uint32_t room_ = 0;
 };
+
+/// One a level; kept by each thread, since clean memory for every view costs more than to fill it.
+using RayBuffers = std::array<RayBuffer, StatePyramid::kMaxCoarseLevels>;
+RayBuffers& buffersOfThread() {
+  thread_local RayBuffers buffers;
+  return buffers;
+}
 
 /// Part of a list; `first` is a multiple of kPacket.
 RayList sliceOf(const RayList& list, std::uint32_t first) {
@@ -91,7 +104,7 @@ class Descent {
   Descent(CpuPath path, const HierarchicalView& view, const RayTree& tree, const HierarchicalQuery& query,
           RayCounts& counts)
       : cast_(castListFor(path)), view_(view), tree_(tree), query_(query), counts_(counts) {
-    for (int i = 0; i < view.coarse_levels; ++i) buffers_.emplace_back(roomFor(i));
+    for (int i = 0; i < view.coarse_levels; ++i) buffers_[i].reserve(roomFor(i));
     if (query.distinct_voxels) totals_.hits = &hits_;
   }
 
@@ -134,7 +147,7 @@ class Descent {
   const RayTree& tree_;
   const HierarchicalQuery& query_;
   RayCounts& counts_;
-  std::vector<RayBuffer> buffers_;  ///< of the levels below the start
+  RayBuffers& buffers_ = buffersOfThread();  ///< of the levels below the start
   Totals totals_;
   std::vector<Hit> hits_;
 };
