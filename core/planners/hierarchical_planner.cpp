@@ -20,15 +20,6 @@ std::pair<int, int> overlapped(double low, double high) {
   return {static_cast<int>(first), static_cast<int>(std::max(first, std::ceil(high - kRounding) - 1))};
 }
 
-HierarchicalQuery queryOf(const UtilityInput& input, const HierarchicalPlannerConfig& config) {
-  HierarchicalQuery query;
-  query.bounds = input.object_box;
-  query.start = config.child_start;
-  query.refine_unknown = config.refine_unknown;
-  query.distinct_voxels = config.count == GainCount::Voxels;
-  return query;
-}
-
 /// reg(v), eq. 2, or by the share of known surface (D-A15).
 bool overlapsKnownSurface(const ViewUtility& view, const HierarchicalPlannerConfig& config) {
   if (config.min_overlap <= 0.0) return view.occupied >= config.min_occupied;
@@ -80,6 +71,15 @@ std::string_view tokenOf(ViewRejection rejection) {
   return "";
 }
 
+HierarchicalQuery queryOf(const Box& object_box, const HierarchicalPlannerConfig& config) {
+  HierarchicalQuery query;
+  query.bounds = object_box;
+  query.start = config.child_start;
+  query.refine_unknown = config.refine_unknown;
+  query.distinct_voxels = config.count == GainCount::Voxels;
+  return query;
+}
+
 bool bodyFits(const StateGrid& states, const Eigen::Vector3d& center_world, double body_m) {
   const GridGeometry& geometry = states.geometry();
   if (geometry.count() == 0 || !center_world.allFinite()) return false;
@@ -117,7 +117,7 @@ ViewUtility evaluateView(const UtilityInput& input, const HierarchicalPlannerCon
 
   view.rejection = ViewRejection::Position;  // pos(v)
   if (!bodyFits(input.pyramid.finest(), pose.translation(), config.body_m)) return view;
-  const HierarchicalQuery query = queryOf(input, config);
+  const HierarchicalQuery query = queryOf(input.object_box, config);
   view.rays = config.coarse_levels == 0
                   ? castUniformRays(input.pyramid.finest(), input.tree, pose, query)
                   : castHierarchical(input.pyramid, input.tree, config.coarse_levels, pose, query);

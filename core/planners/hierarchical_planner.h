@@ -89,6 +89,16 @@ struct UtilitySearch {
 /// Factors of the chosen view, null if there is none.
 const ViewUtility* chosenUtility(const UtilitySearch& search);
 
+/// How a search ended.
+enum class SearchEnd : std::uint8_t {
+  Chosen,
+  NoSurvivor,     ///< the cascade dropped every candidate
+  LittleUnknown,  ///< no survivor sees `stop_gain` (D-A18)
+  Unreachable,    ///< the robot can take none of the survivors that would show something
+};
+/// \param stop_gain h_stop of the search
+SearchEnd endOf(const UtilitySearch& search, double stop_gain);
+
 struct UtilityInput {
   const StatePyramid& pyramid;
   const RayTree& tree;
@@ -97,6 +107,9 @@ struct UtilityInput {
   const Pose& current;                  ///< p.q of eq. 5
   std::span<const Pose> executed = {};  ///< views taken so far
 };
+
+/// How the rays of a candidate are cast and counted.
+HierarchicalQuery queryOf(const Box& object_box, const HierarchicalPlannerConfig& config);
 
 /// True if every voxel that the cube of edge `body_m` about `center_world` overlaps is free; outside the map
 /// nothing is (D-A16).

@@ -143,6 +143,12 @@ const ViewUtility* chosenUtility(const UtilitySearch& search) {
   return nullptr;
 }
 
+SearchEnd endOf(const UtilitySearch& search, double stop_gain) {
+  if (search.chosen) return SearchEnd::Chosen;
+  if (search.ranking.empty()) return SearchEnd::NoSurvivor;
+  return search.best_unknown < stop_gain ? SearchEnd::LittleUnknown : SearchEnd::Unreachable;
+}
+
 UtilitySearch searchUtility(const UtilityInput& input, const HierarchicalPlannerConfig& config,
                             const ReachPose& reach, const RunControl& control) {
   checkInput(input, config);
