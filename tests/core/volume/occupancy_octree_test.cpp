@@ -283,16 +283,15 @@ TEST(OccupancyOctree, ABrickReplacesWhateverWasThere) {
     const auto brick = static_cast<std::uint32_t>(random() % map.bricks().total());
     const BrickRange r = map.bricks().range(brick);
     std::vector<float> brick_values;
-    const bool coarse = random() % 2;  // cubes of two voxels have one value
-    const auto salt = random();
+    std::array<float, 1024> drawn;
+    for (float& value : drawn) value = values[random() % values.size()];
+    const int shift = static_cast<int>(random() % 2);  // 1: cubes of two voxels have one value
     for (int k = r.begin.z(); k < r.end.z(); ++k)
       for (int j = r.begin.y(); j < r.end.y(); ++j)
         for (int i = r.begin.x(); i < r.end.x(); ++i) {
-          const int shift = coarse ? 1 : 0;
-          const std::uint64_t cell = salt + 0x9e3779b97f4a7c15u * (((k >> shift) * 64u + (j >> shift)) * 64u +
-                                                                   static_cast<unsigned>(i >> shift));
-          brick_values.push_back(values[(cell >> 40) % values.size()]);
-          expected[g.index(i, j, k)] = brick_values.back();
+          const int cell = (k >> shift) % 8 * 128 + (j >> shift) % 8 * 16 + (i >> shift) % 16;
+          brick_values.push_back(drawn[cell]);
+          expected[g.index(i, j, k)] = drawn[cell];
         }
     map.setBrick(brick, brick_values);
   }
