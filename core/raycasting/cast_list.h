@@ -73,17 +73,20 @@ void descend(const Bundle& b, Packet<L>& p, const Refinement& r, Totals& totals)
   if (!L::any(p.hit)) return;
   auto own = p.hit;  // the node that holds the sensor (D-A12)
   for (int a = 0; a < 3; ++a) own = L::both(own, L::equal(p.at[a], L::all(b.start[a])));
-  const auto counted = L::both(p.hit, L::inverse(L::either(own, L::less(p.t, p.near_t))));  // D-A22
-  const auto inside = L::both(counted, L::both(inBounds<L>(b, p), inSphere<L>(b, centerDistance2<L>(b, p))));
+  const auto near = L::less(p.t, p.near_t);
+  const auto counts = L::both(inBounds<L>(b, p), inSphere<L>(b, centerDistance2<L>(b, p)));
+  const auto closed = L::both(p.hit, L::inverse(own));
   const unsigned unknown = L::bits(unknownHits<L>(b, p));
-  const unsigned in = L::bits(inside), out = L::bits(counted) & ~in;
+  const unsigned in = L::bits(L::both(closed, counts)), too_near = L::bits(near);
+  const unsigned out = L::bits(closed) & ~in & ~too_near;
   std::int32_t ray[L::kWidth];
   L::store(ray, p.ray);
   totals.unknown_outside += leavesOf(r.families, ray, out & unknown);  // D-A8, D-A9
   unsigned refined = in;
   if (!r.refine_unknown) {
-    totals.unknown += leavesOf(r.families, ray, in & unknown);
-    refined &= ~unknown;
+    const unsigned whole = in & unknown & ~too_near;
+    totals.unknown += leavesOf(r.families, ray, whole);  // D-A14: also for those that would have passed it
+    refined &= ~whole;
   }
   refined |= L::bits(own);
   if (!refined) return;

@@ -48,7 +48,7 @@ enum class RayFate : std::uint8_t {
   Missed,          ///< out of range or out of the map
   Outside,         ///< ended outside the box
   OutsideUnknown,  ///< the same, on unknown (D-A9)
-  TooNear,         ///< ended before the minimum range (D-A22)
+  TooNear,         ///< ended before the minimum range (D-A22), a coarse one outside the box
   Refined,         ///< its children were cast
   Unknown,         ///< counted as unknown
   Occupied,        ///< counted as occupied
@@ -66,9 +66,10 @@ struct TracedRay {
 
 /// Hierarchical ray tracing (Algorithm 2, Vasquez-Gomez et al. 2013) of one view; `coarse_levels` 0 casts all
 /// finest rays. Levels are cast one after the other, which changes no count. A hit in the node that holds the
-/// sensor is refined (D-A12).
-/// \pre the pyramid and the tree have at least `coarse_levels` levels and the same voxel size.
-/// \throws std::invalid_argument otherwise.
+/// sensor is refined (D-A12), and so is one in a node of the box that begins nearer than the minimum range
+/// and may reach beyond it (D-A22). A ray that passes coarse nodes is lost with all below it (D-A13), one
+/// that ends on a coarse unknown node counts for all of them (D-A14). \pre the pyramid and the tree have at
+/// least `coarse_levels` levels and the same voxel size. \throws std::invalid_argument otherwise.
 RayCounts castHierarchical(const StatePyramid& pyramid, const RayTree& tree, int coarse_levels,
                            const Pose& T_world_camera, const HierarchicalQuery& query);
 

@@ -34,6 +34,7 @@ class PlainTracer {
   }
 
  private:
+  /// D-A3: whether a ray is a leaf is asked of the ray that is cast, not of its parent.
   void cast(int level, std::uint32_t row, std::uint32_t column, float start_m) {
     ++counts_.rays_cast;
     if (level == 0) ++counts_.finest_rays_cast;
@@ -44,7 +45,7 @@ class PlainTracer {
     if (view_.reaches) walk(traced);
     if (traced_) traced_->push_back(traced);
     count(traced.fate, level, rays.leaves(row, column), traced.node);
-    if (traced.fate != RayFate::Refined) return;
+    if (traced.fate != RayFate::Refined) return;  // D-A13: a child of a ray that passes may have hit
     const float begin = traced.end_m - view_.step_back_m[level];  // D-A11
     const float child_start = begin < 0.0f ? 0.0f : begin;
     for (std::uint32_t r = rays.rows.first_child[row]; r < rays.rows.first_child[row + 1]; ++r)
@@ -72,17 +73,17 @@ class PlainTracer {
     const Bundle& b = view_.bundles[level];
     const bool own = node[0] == b.start[0] && node[1] == b.start[1] && node[2] == b.start[2];
     if (level > 0 && own) return RayFate::Refined;  // D-A12
-    if (near) return RayFate::TooNear;              // D-A22
     const bool unknown = pyramid_.level(level).at(node[0], node[1], node[2]) == VoxelState::Unknown;
     const bool inside = withinBounds(b.region, node) && squaredDistance(b.region, node) <= b.region.radius2;
+    if (near && (level == 0 || !inside)) return RayFate::TooNear;              // D-A22
     if (!inside) return unknown ? RayFate::OutsideUnknown : RayFate::Outside;  // D-A8
-    if (level > 0 && (!unknown || query_.refine_unknown)) return RayFate::Refined;
+    if (level > 0 && (!unknown || near || query_.refine_unknown)) return RayFate::Refined;
     return unknown ? RayFate::Unknown : RayFate::Occupied;
   }
 
   void count(RayFate fate, int level, std::uint64_t leaves, const Eigen::Vector3i& node) {
     if (fate == RayFate::OutsideUnknown) counts_.unknown_scene += leaves;  // D-A9
-    if (fate == RayFate::Unknown) counts_.unknown += leaves;
+    if (fate == RayFate::Unknown) counts_.unknown += leaves;               // D-A14
     if (fate == RayFate::Occupied) counts_.occupied += leaves;
     if (level > 0 || !query_.distinct_voxels) return;
     const auto voxel = [&] { return static_cast<std::int32_t>(pyramid_.finest().geometry().index(node)); };

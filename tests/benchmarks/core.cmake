@@ -2,7 +2,6 @@
 # threads, where there can be more than one, is an argument of the case.
 vantage_benchmark(gain_benchmark gain_benchmark.cpp workload.cpp benchmark_main.cpp LIBS vantage_raycasting TBB::tbb)
 vantage_benchmark(fusion_benchmark fusion_benchmark.cpp workload.cpp benchmark_main.cpp LIBS vantage_volume TBB::tbb)
-pkg_check_modules(OCTOMAP REQUIRED IMPORTED_TARGET octomap)
 find_package(OpenMP REQUIRED)  # OctoMap's own threads
 vantage_benchmark(octree_benchmark octree_benchmark.cpp benchmark_main.cpp
   LIBS vantage_volume TBB::tbb PkgConfig::OCTOMAP OpenMP::OpenMP_CXX)

@@ -266,14 +266,33 @@ TEST(HierarchicalCaster, HitsNearerThanTheMinimumRangeAreLostAtEveryLevel) {
   const RayTree tree(sensor, testing::kToyVoxel, 3);
   const StatePyramid pyramid =
       freeBut([](const Eigen::Vector3d& p) { return p.z() > 0.5 ? VoxelState::Occupied : VoxelState::Free; });
-  for (int m = 0; m <= 2; ++m) {
+  HierarchicalQuery beside;
+  beside.bounds = Box(Eigen::Vector3d(-0.8, -0.8, 1.5), Eigen::Vector3d(0.8, 0.8, 1.6));
+  for (int m = 0; m <= 3; ++m) {
     const RayCounts counts = castHierarchical(pyramid, tree, m, testing::toyPose(), {});
     EXPECT_EQ(counts.occupied + counts.unknown + counts.unknown_scene, 0u);
-    EXPECT_EQ(counts.rays_cast, tree.level(m).count());
+    EXPECT_EQ(castHierarchical(pyramid, tree, m, testing::toyPose(), beside).rays_cast,
+              tree.level(m).count());
   }
 }
 
-// D-A8, D-A9.
+TEST(HierarchicalCaster, NodesThatBeginNearerThanTheMinimumRangeHideNothingBeyondIt) {  // D-A22
+  RaySensor sensor = testing::toySensor();
+  sensor.min_range_m = 0.45;  // the nodes of 0.4 m with the wall begin at 0.4 m
+  const RayTree tree(sensor, testing::kToyVoxel, 3);
+  for (const VoxelState state : {VoxelState::Occupied, VoxelState::Unknown}) {
+    const StatePyramid pyramid =
+        freeBut([&](const Eigen::Vector3d& p) { return p.z() > 0.5 ? state : VoxelState::Free; });
+    for (const ChildStart start : {ChildStart::Resume, ChildStart::Restart})
+      for (int m = 0; m <= 3; ++m) {
+        HierarchicalQuery query;
+        query.start = start;
+        const RayCounts counts = castHierarchical(pyramid, tree, m, testing::toyPose(), query);
+        EXPECT_EQ(state == VoxelState::Occupied ? counts.occupied : counts.unknown, 336u) << "m " << m;
+      }
+  }
+}
+
 TEST(HierarchicalCaster, HitsOutsideTheBoxCountNothingAndAreNotRefined) {
   const RayTree tree(testing::toySensor(), testing::kToyVoxel, 3);
   HierarchicalQuery query;

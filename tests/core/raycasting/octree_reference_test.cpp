@@ -1,4 +1,4 @@
-// Fast casts over the derived pyramid against slow casts over the octree itself.
+// Fast casts over the derived pyramid against slow casts over OctoMap's own tree.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -10,7 +10,7 @@
 namespace vantage {
 namespace {
 
-using testing::castThroughOctree;
+using testing::OctreeCaster;
 using testing::randomPose;
 
 constexpr double kVoxel = 0.02;
@@ -75,17 +75,17 @@ TEST_P(OctreeReference, AgreesWithCastsOverThePyramidOnRandomMaps) {
     const RaySensor sensor = randomSensor(random);
     const RayTree tree(sensor, kVoxel, std::min(3, maxCoarseLevels(sensor, kVoxel)));
     const StatePyramid pyramid(map, tree.coarseLevels());
+    const OctreeCaster reference(map);
     const Pose pose = randomPose(random, map.geometry().bounds());
     const HierarchicalQuery query = randomQuery(random, map);
     for (int m = 0; m <= tree.coarseLevels(); ++m) {
-      const RayCounts slow = castThroughOctree(map, tree, m, pose, query);
+      const RayCounts slow = reference.cast(tree, m, pose, query);
       EXPECT_EQ(castHierarchical(pyramid, tree, m, pose, query), slow) << "m " << m;
       total.unknown += slow.unknown, total.occupied += slow.occupied;
       total.unknown_scene += slow.unknown_scene, total.unknown_voxels += slow.unknown_voxels;
       refined += m > 0 && slow.finest_rays_cast > 0;
     }
-    EXPECT_EQ(castUniformRays(pyramid.finest(), tree, pose, query),
-              castThroughOctree(map, tree, 0, pose, query));
+    EXPECT_EQ(castUniformRays(pyramid.finest(), tree, pose, query), reference.cast(tree, 0, pose, query));
   }
   EXPECT_GT(total.unknown, 2000u);
   EXPECT_GT(total.occupied, 1000u);

@@ -75,45 +75,55 @@ TEST(RayTree, LeafCountsOfTheToySensorAreExact) {
   EXPECT_EQ(leafRange(toy.level(3)), (std::pair{40u, 88u}));
 }
 
+struct Case {
+  RaySensor sensor;
+  double voxel_m;
+  int levels;
+  std::uint64_t rays;
+};
+const Case kCases[] = {{kinect(), 0.01, 4, 58869},
+                       {timeOfFlight(), 0.01, 4, 36936},
+                       {testing::toySensor(), testing::kToyVoxel, 3, 336}};
+
 // Acceptance check 10.2.
 TEST(RayTree, LeavesOfEveryLevelAddUpToTheFinestRays) {
-  const std::tuple<RaySensor, double, int, std::uint64_t> cases[] = {
-      {kinect(), 0.01, 4, 58869},
-      {timeOfFlight(), 0.01, 4, 36936},
-      {testing::toySensor(), testing::kToyVoxel, 3, 336}};
-  for (const auto& [sensor, voxel, levels, rays] : cases) {
+  for (const auto& [sensor, voxel, levels, rays] : kCases) {
     const RayTree tree(sensor, voxel, levels);
     for (int i = 0; i <= levels; ++i) EXPECT_EQ(sumOfLeaves(tree.level(i)), rays);
   }
 }
 
-TEST(RayTree, EveryRayHasOneParentAndEveryInnerRayAChild) {
-  for (const RayAnchor anchor : {RayAnchor::Centered, RayAnchor::Literal}) {
-    RaySensor sensor = kinect();
-    sensor.anchor = anchor;
-    const RayTree tree(sensor, 0.01, 4);
-    for (int i = 1; i <= 4; ++i) {
-      const RayLevel &coarse = tree.level(i), &fine = tree.level(i - 1);
-      const std::vector<std::uint32_t>& order = fine.families.ray;
-      std::vector<int> parents(fine.count(), 0);
-      ASSERT_EQ(coarse.families.family.size(), coarse.count());
-      ASSERT_EQ(order.size(), fine.count());
-      for (std::uint32_t n = 0; n < coarse.count(); ++n) {
-        const RayFamily& family = coarse.families.family[n];
-        const std::uint32_t j = coarse.families.ray[n] / coarse.columns.count();
-        const std::uint32_t k = coarse.families.ray[n] % coarse.columns.count();
-        ASSERT_GE(family.children, 1u);
-        ASSERT_LE(family.children, coarse.families.most_children);
-        EXPECT_EQ(family.leaves, coarse.leaves(j, k));
-        for (std::uint32_t c = family.first_child; c < family.first_child + family.children; ++c) {
-          ++parents[order[c]];
-          EXPECT_EQ(fine.rows.parent[order[c] / fine.columns.count()], j);
-          EXPECT_EQ(fine.columns.parent[order[c] % fine.columns.count()], k);
-        }
+void expectWholeFamilies(const RayTree& tree) {
+  for (int i = 1; i <= tree.coarseLevels(); ++i) {
+    const RayLevel &coarse = tree.level(i), &fine = tree.level(i - 1);
+    const std::vector<std::uint32_t>& order = fine.families.ray;
+    std::vector<int> parents(fine.count(), 0);
+    ASSERT_EQ(coarse.families.family.size(), coarse.count());
+    ASSERT_EQ(order.size(), fine.count());
+    for (std::uint32_t n = 0; n < coarse.count(); ++n) {
+      const RayFamily& family = coarse.families.family[n];
+      const std::uint32_t j = coarse.families.ray[n] / coarse.columns.count();
+      const std::uint32_t k = coarse.families.ray[n] % coarse.columns.count();
+      ASSERT_GE(family.children, 1u);
+      ASSERT_LE(family.children, coarse.families.most_children);
+      EXPECT_EQ(family.leaves, coarse.leaves(j, k));
+      for (std::uint32_t c = family.first_child; c < family.first_child + family.children; ++c) {
+        ++parents[order[c]];
+        EXPECT_EQ(fine.rows.parent[order[c] / fine.columns.count()], j);
+        EXPECT_EQ(fine.columns.parent[order[c] % fine.columns.count()], k);
       }
-      EXPECT_EQ(std::count(parents.begin(), parents.end(), 1), static_cast<int>(fine.count()));
     }
+    EXPECT_EQ(std::count(parents.begin(), parents.end(), 1), static_cast<int>(fine.count()));
   }
+}
+
+TEST(RayTree, EveryRayHasOneParentAndEveryInnerRayAChild) {
+  for (const Case& c : kCases)
+    for (const RayAnchor anchor : {RayAnchor::Centered, RayAnchor::Literal}) {
+      RaySensor sensor = c.sensor;
+      sensor.anchor = anchor;
+      expectWholeFamilies(RayTree(sensor, c.voxel_m, c.levels));
+    }
 }
 
 // Acceptance check 10.2, literal anchoring.
