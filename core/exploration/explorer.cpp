@@ -75,7 +75,7 @@ struct Explorer::State {
   }
   bool isReplay() const { return !camera.recordedPoses().empty(); }
   std::vector<Pose> startPoses() const;
-  bool scanInto(StepRecord& record, const std::vector<Pose>& poses, bool clear_start,
+  bool scanInto(StepRecord& record, const std::vector<Pose>& poses, const SensorBubble& bubble,
                 const RunControl& control);
   std::vector<Pose> scanPoses(const std::optional<StepRecord>& previous) const;
   bool observe(StepRecord& record, std::optional<StepRecord>& previous, const RunControl& control);
@@ -104,7 +104,7 @@ std::vector<Pose> Explorer::State::startPoses() const {
 }
 
 /// Sense and fuse. False if the camera had no frame at all.
-bool Explorer::State::scanInto(StepRecord& record, const std::vector<Pose>& poses, bool clear_start,
+bool Explorer::State::scanInto(StepRecord& record, const std::vector<Pose>& poses, const SensorBubble& bubble,
                                const RunControl& control) {
   double sense_s = 0.0, fuse_s = 0.0;
   DepthFrame last;
@@ -117,9 +117,7 @@ bool Explorer::State::scanInto(StepRecord& record, const std::vector<Pose>& pose
     if (!frame) break;
     ++frames_taken;
     const Stopwatch fusing;
-    // The sensor has been here: its own neighbourhood is empty (D-B28), all along the way of the initial
-    // scan.
-    world.fuse(*frame, camera.model(), clear_start ? config.scan.clear_radius_m : 0.0);
+    world.fuse(*frame, camera.model(), bubble);
     fuse_s += fusing.seconds();
     record.scan.push_back({frame->T_world_camera, frame->frame});
     last = std::move(*frame);
@@ -292,10 +290,14 @@ std::vector<Pose> Explorer::State::scanPoses(const std::optional<StepRecord>& pr
 bool Explorer::State::observe(StepRecord& record, std::optional<StepRecord>& previous,
                               const RunControl& control) {
   const std::uint64_t unknown_before = previous ? unknownInRegion(*previous) : 0;
-  // The hierarchical planner flies through what its octree takes for free; the TSDF has to learn that from
-  // the sensor itself, or nobody could plan a way back in it.
-  const bool new_ground = !previous || (config.needsVolume() && usesOctree(config.plannerOf(previous->step)));
-  if (!scanInto(record, scanPoses(previous), new_ground, control)) {
+  // The sensor has been here: its own neighbourhood is empty, all along the way of the initial scan. The
+  // hierarchical planner flies through what its octree takes for free; the TSDF has to learn that from the
+  // sensor itself, or nobody could plan a way back in it.
+  const double radius_m = config.scan.clear_radius_m;
+  SensorBubble bubble;
+  if (!previous) bubble = {radius_m, radius_m};
+  if (previous && usesOctree(config.plannerOf(previous->step))) bubble.volume_m = radius_m;
+  if (!scanInto(record, scanPoses(previous), bubble, control)) {
     if (!previous) throw std::runtime_error("the camera served no frame for the initial scan");
     return false;
   }

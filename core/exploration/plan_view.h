@@ -26,7 +26,7 @@ struct PlanUtilityInput {
   const StatePyramid& pyramid;
   const RayTree& tree;
   const Box& object_box;
-  const Box& workspace;                     ///< where workspace views are drawn
+  const Box& workspace;  ///< the mapped space: workspace views are drawn in all of it (D-A16 drops many)
   std::span<const ScanPose> recorded = {};  ///< offered beside the generated candidates
   const Pose& current;                      ///< p.q of eq. 5
   const HierarchicalPlannerConfig& config;

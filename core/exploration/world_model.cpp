@@ -44,16 +44,16 @@ WorldModel::WorldModel(const WorldConfig& config) : config_(config) {
   }
 }
 
-void WorldModel::fuse(const DepthFrame& frame, const PinholeCamera& camera, double bubble_m) {
+void WorldModel::fuse(const DepthFrame& frame, const PinholeCamera& camera, const SensorBubble& bubble) {
   const Eigen::Vector3d eye = frame.T_world_camera.translation();
   if (volume_) {
-    if (bubble_m > 0.0) volume_changed_.merge(clearSphere(*volume_, eye, bubble_m));
+    if (bubble.volume_m > 0.0) volume_changed_.merge(clearSphere(*volume_, eye, bubble.volume_m));
     volume_changed_.merge(
         fuseDepth(*volume_, frame.depth, camera, frame.T_world_camera, config_.fusion).changed);
   }
   if (octree_) {
-    if (bubble_m > 0.0 && config_.octree.outside == VoxelState::Unknown)
-      octree_changed_.merge(octree_->clearSphere(eye, bubble_m));
+    if (bubble.octree_m > 0.0 && config_.octree.outside == VoxelState::Unknown)
+      octree_changed_.merge(octree_->clearSphere(eye, bubble.octree_m));
     octree_changed_.merge(octree_->insert(frame.depth, camera, frame.T_world_camera).changed);
   }
 }
@@ -74,8 +74,9 @@ void WorldModel::occupyOctree(const Box& box, const std::function<bool(const Eig
     for (int j = low.y(); j <= high.y(); ++j)
       for (int i = low.x(); i <= high.x(); ++i) {
         const Eigen::Vector3d center = grid.center({i, j, k});
-        if (part.contains(center) && !octree_->objectBox().contains(center) && inside(center))
-          octree_->set({i, j, k}, known);
+        if (!part.contains(center) || octree_->objectBox().contains(center) || !inside(center)) continue;
+        octree_->set({i, j, k}, known);
+        octree_changed_.insert(octree_->bricks().brickOf({i, j, k}));
       }
 }
 

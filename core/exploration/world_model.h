@@ -45,14 +45,20 @@ struct MapChanges {
   std::shared_ptr<const std::vector<OctreeBrick>> octree;  ///< the same
 };
 
+/// Balls around the sensor that are taken as empty, since it is there (D-B28): radii, metres, 0 = none.
+struct SensorBubble {
+  double volume_m = 0.0;
+  double octree_m = 0.0;  ///< only where everything is unknown at the start
+};
+
 /// The maps that the planners of a run need. Every frame goes into all of them.
 class WorldModel {
  public:
   /// \throws std::invalid_argument, std::runtime_error as the maps do.
   explicit WorldModel(const WorldConfig& config);
 
-  /// Fuses one frame. \param bubble_m ball around the sensor that is taken as empty, metres, 0 = none (D-B28)
-  void fuse(const DepthFrame& frame, const PinholeCamera& camera, double bubble_m);
+  /// Fuses one frame.
+  void fuse(const DepthFrame& frame, const PinholeCamera& camera, const SensorBubble& bubble);
   /// Takes a ball as empty where the octree knows nothing: a recorded sensor has been there.
   void clearOctree(const Eigen::Vector3d& center_world, double radius_m);
   /// Marks the octree's voxels outside the object's box as occupied whose centre lies in `box` and `inside`.

@@ -133,7 +133,7 @@ ViewUtility evaluateView(const UtilityInput& input, const HierarchicalPlannerCon
   view.surface = box_unknown == 0 ? 0.0 : view.unknown / static_cast<double>(box_unknown);  // Eq. 3
   view.distance =
       1.0 / (1.0 + configurationDistance(pose, input.current, config.rotation_weight_m_per_rad));  // Eq. 5
-  view.utility = view.surface * view.distance;                                                     // Eq. 1
+  view.utility = view.surface * view.distance;  // Eq. 1, without a vision angle (D-A19)
   return view;
 }
 

@@ -102,7 +102,7 @@ class Search {
       if (!(view.utility > 0.0)) return;
       control_.check();
       const auto start = Clock::now();
-      MotionPlan plan = reach_(view.T_world_camera);
+      MotionPlan plan = reach_(view.T_world_camera);  // D-A23: not part of the NBV time
       result_.motion_planning_s += secondsSince(start);
       ++result_.counts.paths_planned;
       view.reachability = plan.verdict;

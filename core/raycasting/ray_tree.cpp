@@ -13,8 +13,8 @@ namespace {
 /// Most rays of the finest level: an image of 16 megapixels.
 constexpr double kMaxRays = 16.0 * 1024 * 1024;
 
-/// Largest voxel that a sensor's rays can be made for: two rays per axis. Section 4 allows half the angle,
-/// which its own toy table (l_i = 0.40 m at d = 1 m and 45 deg) exceeds.
+/// Largest voxel that a sensor's rays can be made for: two rays per axis. Section 4 of the specification
+/// asks for l_i <= d sin(a / 2), which its own toy table (l_i = 0.40 m at d = 1 m and 45 deg) exceeds.
 double largestVoxel(const RaySensor& sensor) {
   const double aperture = std::min(sensor.horizontal_fov_rad, sensor.vertical_fov_rad);
   return sensor.max_range_m * std::sin(std::min(aperture, std::numbers::pi / 2));

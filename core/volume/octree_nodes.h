@@ -18,7 +18,7 @@ class OcTreeNode;
 
 namespace vantage::octree {
 
-inline constexpr int kDepth = 16;          ///< of the finest voxels
+inline constexpr int kDepth = OccupancyOctree::kDepth;  ///< of the finest voxels
 inline constexpr int kKeys = 1 << kDepth;  ///< finest voxels per axis; the world's origin is at kKeys / 2
 inline constexpr int kBlock = 8;           ///< edge of the blocks in which nodes are rewritten, voxels
 inline constexpr int kBlockVoxels = kBlock * kBlock * kBlock;

@@ -3,6 +3,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,9 @@ Settings coarseRoom(const std::string& planner, int steps) {
   return settings;
 }
 
-LoopRun explore(const Settings& settings, int threads = 2) {
+/// \param evaluated is called with every record after its evaluation, and the maps at that time
+LoopRun explore(const Settings& settings, int threads = 2,
+                const std::function<void(const StepRecord&, const WorldModel&)>& evaluated = {}) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
   const SceneFile scene = loadScene("room");
   SimulatedDepthCamera camera(scene, {settings.camera, settings.sensor, settings.exploration.seed});
@@ -49,6 +52,7 @@ LoopRun explore(const Settings& settings, int threads = 2) {
   Explorer explorer(settings.exploration, camera, robot, &truth);
   LoopRun run;
   explorer.addObserver([&](const std::shared_ptr<const StepRecord>& record) {
+    if (evaluated && record->stage == Stage::Evaluation) evaluated(*record, explorer.world());
     if (record->closing) {
       if (record->stage == Stage::Done) run.closing = *record;
     } else if (record->stage == Stage::Done) {
@@ -61,7 +65,7 @@ LoopRun explore(const Settings& settings, int threads = 2) {
   return run;
 }
 
-TEST(HierarchicalLoop, UnknownSpaceInTheBoxFallsUntilNothingIsLeftToGain) {
+TEST(HierarchicalLoop, UnknownSpaceInTheBoxFallsOverTwoStepsUntilNothingIsLeftToGain) {
   const LoopRun run = explore(coarseRoom("hierarchical", 20));
   EXPECT_EQ(run.stop_reason, "finished");
   ASSERT_GE(run.steps.size(), 3u);
@@ -71,10 +75,11 @@ TEST(HierarchicalLoop, UnknownSpaceInTheBoxFallsUntilNothingIsLeftToGain) {
     EXPECT_GE(step.utilities->best_unknown, 25.0) << n;  // D-A18
     EXPECT_GE(chosenUtility(*step.utilities)->occupied, 100.0) << n;
     EXPECT_EQ(step.chosen()->path.verdict, Reachability::Reachable) << n;
-    // A hit and two misses are unknown again (10.3), so a scan can lose some voxels at the border of a
-    // surface.
     const std::uint64_t before = step.box->unknown, after = run.steps[n + 1].box->unknown;
-    EXPECT_LT(after, before + before / 20) << n;
+    // A hit and two misses are unknown again (10.3), so that one scan alone can lose some voxels.
+    if (n + 2 < run.steps.size()) {
+      EXPECT_LT(run.steps[n + 2].box->unknown, before) << n;
+    }
     EXPECT_EQ(step.realised_voxels, before - std::min(before, after)) << n;
   }
   const StepRecord& last = run.steps.back();
@@ -85,7 +90,24 @@ TEST(HierarchicalLoop, UnknownSpaceInTheBoxFallsUntilNothingIsLeftToGain) {
   EXPECT_EQ(last.contours, nullptr);
 }
 
-TEST(HierarchicalLoop, WithoutCoarseLevelsEqualsTheUniformPlannerViewByView) {
+TEST(HierarchicalLoop, WithoutCoarseLevelsEveryViewIsThatOfUniformRayTracing) {
+  const Settings settings = coarseRoom("uniform", 4);
+  const ExplorationConfig& config = settings.exploration;
+  const RayTree tree(config.hierarchical.sensor, config.octree.voxel_size_m, 0);
+  int compared = 0;
+  explore(settings, 2, [&](const StepRecord& record, const WorldModel& world) {
+    const HierarchicalQuery query = queryOf(config.objectBox(), config.hierarchical);
+    for (const ViewUtility& view : record.utilities->views) {
+      if (view.rejection == ViewRejection::Position) continue;
+      ++compared;
+      EXPECT_EQ(castHierarchical(*world.pyramid(), tree, 0, view.T_world_camera, query), view.rays)
+          << record.step << " " << view.id;
+    }
+  });
+  EXPECT_GT(compared, 500);
+}
+
+TEST(HierarchicalLoop, WithoutCoarseLevelsChoosesTheViewsOfTheUniformPlanner) {
   Settings flat = coarseRoom("hierarchical", 4);
   flat.exploration.hierarchical.coarse_levels = 0;
   const LoopRun hierarchical = explore(flat), uniform = explore(coarseRoom("uniform", 4));
