@@ -26,7 +26,7 @@ std::vector<RunSpec> overlapSpecs(const std::vector<RunResult>& runs) {
   std::vector<RunSpec> all;
   for (const RunResult& run : runs)
     if (run.spec.graded() && run.spec.start == ChildStart::Resume && run.iterations.size() == 1 &&
-        run.iterations[0].survivors == 0) {
+        run.iterations[0].survivors == 0 && run.iterations[0].rejected_registration > 0) {
       all.push_back(run.spec);
       all.back().min_overlap = 0.20;
     }
@@ -39,8 +39,9 @@ void addPlots(const std::vector<ObjectRuns>& sets, Report& report) {
     LinePlot unknown{"A1: unknown voxels in the object's box, " + set.title(), "scan", "unknown voxels", {}};
     for (const RunResult& run : set.runs) {
       unknown.series.push_back({run.spec.label(), run.unknown_per_scan});
-      if (run.spec.coarse_levels > 0 && run.spec.graded())
-        bars.bars.push_back({set.title() + " " + run.spec.label(), 100 * timeShare(set, run)});
+      const std::optional<double> share = percent(timeShare(set, run));
+      if (share && run.spec.coarse_levels > 0 && run.spec.graded())
+        bars.bars.push_back({set.title() + " " + run.spec.label(), *share});
     }
     report.lines.push_back(std::move(unknown));
   }
@@ -57,21 +58,62 @@ std::vector<std::string> notes() {
       "start.",
       "A1: coverage counts surface that some feasible candidate sees; accuracy is the distance of occupied "
       "voxel centres in the box to the nearest true surface, the table's included.",
-      "A1: in graded runs a view that was taken (within 5 cm and 10 deg) is not offered again, to either "
-      "method; the paper offers it again, and eq. 5 then favours the place where the sensor stands. Rows "
-      "with "
-      "'repeats' follow the paper.",
-      "A1: a run ends at its first step where no view sees h_oc = 400 rays of known surface: coarse rays "
-      "(m >= 3) that miss a small object's silhouette lose just these. Rows with 'overlap 20 %' use the "
-      "released code's share instead (D-A15).",
+      "A1: in graded runs a view near one that was taken (utility.executed_*) is not offered again, to "
+      "either method; the paper offers it again, and eq. 5 then favours the place where the sensor stands. "
+      "Rows with 'repeats' follow the paper.",
+      "A1: a run ends at its first step where no view sees h_oc of known surface: coarse rays (m >= 3) that "
+      "miss a small object's silhouette lose just these. Rows with 'overlap 20 %' use the released code's "
+      "share instead (D-A15).",
+      "A1: a run that has used up its steps is cut off, not finished: its coverage, views and total time are "
+      "graded only where further steps could not change the verdict, taking it that coverage does not fall "
+      "with further scans.",
       "A1: literal stop = step at which stopping once the chosen view is poor would have ended the run "
       "(D-A18)."};
 }
 
+std::string percentText(const std::optional<double>& share) {
+  return share ? fmt::format("{:.1f} %", 100 * *share) : "not measured";
+}
+
 std::string line(const ObjectRuns& set, const RunResult& run) {
-  return fmt::format("A1 {} {}: {} views, {:.4f} s/iteration ({:.1f} % of uniform), coverage {:.1f} %, {}",
-                     set.title(), run.spec.label(), run.scans, run.meanNbv_s(), 100 * timeShare(set, run),
-                     100 * run.coverage, run.stop_reason);
+  return fmt::format("A1 {} {}: {} views, {:.4f} s/iteration (of uniform: {}), coverage {}, {}", set.title(),
+                     run.spec.label(), run.scans, run.meanNbv_s(), percentText(timeShare(set, run)),
+                     percentText(run.coverage), run.stop_reason);
+}
+
+/// Defaults as A1 uses them: rays and inner nodes are its own.
+std::vector<DefaultUsed> defaultsOf(const Settings& settings, const ExperimentOptions& options) {
+  std::vector<DefaultUsed> defaults = defaultsUsed(settings, "A1", true);
+  setDefault(defaults, "coarse levels m", options.quick ? "0, 2, 3" : "0 to 4");
+  setDefault(defaults, "children of rays", options.quick ? "resume" : "resume and restart");
+  setDefault(defaults, "inner nodes", "max");
+  defaults.push_back(sizesUsed(tableObjects(options), "A1"));
+  return defaults;
+}
+
+/// Makes the wanted runs of one object, and those that follow from them.
+/// \throws Cancelled; the runs so far stay in `set`
+void runObject(const TableSetup& setup, std::vector<RunSpec> wanted, const ExperimentOptions& options,
+               ObjectRuns& set, std::vector<double>& seconds_per_view) {
+  for (std::size_t n = 0; n < wanted.size(); ++n) {
+    const RunSpec spec = wanted[n];
+    set.runs.push_back(runOnTable(setup, spec, options.repeats, options.control));
+    const RunResult& run = set.runs.back();
+    options.say(line(set, run));
+    const bool usual = spec.graded() && spec.coarse_levels == 2 && spec.start == ChildStart::Resume;
+    if (usual && run.secondsPerCandidate() > 0.0) seconds_per_view.push_back(run.secondsPerCandidate());
+    if (n + 1 == wanted.size() && spec.min_overlap == 0.0)
+      for (const RunSpec& other : overlapSpecs(set.runs)) wanted.push_back(other);
+  }
+}
+
+/// The part of an object that an interruption left out.
+std::string leftOut(const ObjectRuns& set, const std::vector<RunSpec>& wanted) {
+  std::string modes;
+  for (std::size_t n = set.runs.size(); n < wanted.size(); ++n)
+    modes += (modes.empty() ? "" : ", ") + wanted[n].label();
+  if (set.runs.empty()) modes = "all runs";
+  return fmt::format("A1 {} ({})", set.title(), modes.empty() ? "rows with the other rule" : modes);
 }
 
 }  // namespace
@@ -82,34 +124,36 @@ std::vector<std::pair<ObjectSource, double>> tableObjects(const ExperimentOption
   if (!options.quick) sources.insert(sources.begin() + 1, elongatedStandIn());
   std::vector<std::pair<ObjectSource, double>> objects;
   for (const ObjectSource& source : sources)
-    for (std::size_t n = 0; n < (options.quick ? 1 : options.sizes_m.size()); ++n)
-      objects.emplace_back(source, options.sizes_m[n]);
+    for (const double size_m : options.sizes_m) objects.emplace_back(source, size_m);
   return objects;
+}
+
+void checkA1(const ExperimentOptions& options) {
+  for (const auto& [source, size_m] : tableObjects(options))
+    tableSettings(sceneOnTable(source, size_m), options.max_steps, options.tune);
 }
 
 Report runA1(const ExperimentOptions& options, std::vector<double>& seconds_per_view) {
   std::vector<ObjectRuns> sets;
   Report report;
   for (const auto& [source, size_m] : tableObjects(options)) {
-    const TableSetup setup = setUpTable(source, size_m, options.max_steps, options.tune);
-    if (report.defaults.empty()) report.defaults = defaultsUsed(setup.settings);
-    ObjectRuns& set = sets.emplace_back(ObjectRuns{setup.object, size_m, {}});
+    ObjectRuns set{source.name, size_m, {}};
     std::vector<RunSpec> wanted = specs(options.quick);
-    if (sets.size() == 1 && !options.quick)
+    if (sets.empty() && !options.quick)
       for (const RunSpec& spec : literalSpecs()) wanted.push_back(spec);
-    for (std::size_t n = 0; n < wanted.size(); ++n) {
-      const RunSpec spec = wanted[n];
-      set.runs.push_back(runOnTable(setup, spec, options.repeats, options.control));
-      const RunResult& run = set.runs.back();
-      options.say(line(set, run));
-      if (spec.graded() && spec.coarse_levels == 2 && spec.start == ChildStart::Resume)
-        seconds_per_view.push_back(run.secondsPerCandidate());
-      if (n + 1 == wanted.size() && spec.min_overlap == 0.0)
-        for (const RunSpec& other : overlapSpecs(set.runs)) wanted.push_back(other);
+    try {
+      options.control.check();
+      const TableSetup setup = setUpTable(source, size_m, options.max_steps, options.tune);
+      if (report.defaults.empty()) report.defaults = defaultsOf(setup.settings, options);
+      runObject(setup, wanted, options, set, seconds_per_view);
+    } catch (const Cancelled&) {
+      report.not_run.push_back(leftOut(set, wanted));
     }
+    if (!set.runs.empty()) sets.push_back(std::move(set));
   }
+  if (sets.empty()) return report;
   report.tables = {mainTable(sets), stepTable(sets)};
-  judgeRuns(sets, options.quick, report);
+  judgeRuns(sets, report);
   addPlots(sets, report);
   report.notes = notes();
   return report;

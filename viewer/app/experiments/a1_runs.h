@@ -19,19 +19,28 @@ struct ObjectRuns {
   std::string title() const;
 };
 
-/// a / b, 0 for b = 0.
-double ratio(double a, double b);
+/// a / b; none unless both were measured and b is above 0.
+std::optional<double> ratio(std::optional<double> a, std::optional<double> b);
+/// A share in per cent.
+std::optional<double> percent(std::optional<double> share);
 
-/// A run against uniform ray tracing of the same object: mean NBV time by the clock and in CPU time, and
-/// visits per scored view.
-double timeShare(const ObjectRuns& set, const RunResult& run);
-double cpuShare(const ObjectRuns& set, const RunResult& run);
-double visitShare(const ObjectRuns& set, const RunResult& run);
+// A run against uniform ray tracing of the same object. Each is empty where either side measured nothing.
+
+/// Mean NBV time by the clock and in CPU time, and visits per scored view.
+std::optional<double> timeShare(const ObjectRuns& set, const RunResult& run);
+std::optional<double> cpuShare(const ObjectRuns& set, const RunResult& run);
+std::optional<double> visitShare(const ObjectRuns& set, const RunResult& run);
 /// Finest rays that were cast, of all finest rays of the scored views.
-double finestShare(const RunResult& run);
+std::optional<double> finestShare(const RunResult& run);
 /// Cost of the views that the table hides against uniform ray tracing on the same map.
-double hiddenTimeShare(const ObjectRuns& set, const RunResult& run);
-double hiddenVisitShare(const ObjectRuns& set, const RunResult& run);
+std::optional<double> hiddenTimeShare(const ObjectRuns& set, const RunResult& run);
+std::optional<double> hiddenVisitShare(const ObjectRuns& set, const RunResult& run);
+/// Coverage that the run ends with less than uniform, points; negative = more. Empty if uniform covers
+/// nothing.
+std::optional<double> lostPoints(const ObjectRuns& set, const RunResult& run);
+/// Scans and total planning time. Empty if uniform took no view after the first scan.
+std::optional<double> viewShare(const ObjectRuns& set, const RunResult& run);
+std::optional<double> totalTimeShare(const ObjectRuns& set, const RunResult& run);
 /// Step at which the literal rule would have stopped (D-A18).
 std::optional<double> literalStop(const RunResult& run);
 
@@ -39,8 +48,13 @@ std::optional<double> literalStop(const RunResult& run);
 Table mainTable(const std::vector<ObjectRuns>& sets);
 Table stepTable(const std::vector<ObjectRuns>& sets);
 
-/// Adds the pass criteria with their values. \param cut_off runs end before they are done: what depends on
-/// their ends is not judged
-void judgeRuns(const std::vector<ObjectRuns>& sets, bool cut_off, Report& report);
+/// Adds the pass criteria with their values. What was not measured is "not run". Of runs that were cut off,
+/// coverage, views and total time are graded only where more steps could not change the verdict.
+void judgeRuns(const std::vector<ObjectRuns>& sets, Report& report);
+
+/// Criteria (1), (2): cost; (3), (4): what the runs ended with; (5) and the maps.
+void judgeCost(const std::vector<ObjectRuns>& sets, Report& report);
+void judgeEnds(const std::vector<ObjectRuns>& sets, Report& report);
+void judgeSameness(const std::vector<ObjectRuns>& sets, Report& report);
 
 }  // namespace vantage::experiments

@@ -22,34 +22,57 @@ std::string ObjectRuns::title() const {
   return fmt::format("{} {:.2f} m", object, size_m);
 }
 
-double ratio(double a, double b) {
-  return b > 0.0 ? a / b : 0.0;
+std::optional<double> ratio(std::optional<double> a, std::optional<double> b) {
+  return a && b && *b > 0.0 ? std::optional(*a / *b) : std::nullopt;
 }
 
-double timeShare(const ObjectRuns& set, const RunResult& run) {
+std::optional<double> percent(std::optional<double> share) {
+  return share ? std::optional(100 * *share) : std::nullopt;
+}
+
+std::optional<double> timeShare(const ObjectRuns& set, const RunResult& run) {
+  if (run.iterations.empty()) return std::nullopt;
   return ratio(run.meanNbv_s(), set.uniform().meanNbv_s());
 }
 
-double cpuShare(const ObjectRuns& set, const RunResult& run) {
+std::optional<double> cpuShare(const ObjectRuns& set, const RunResult& run) {
+  if (run.iterations.empty()) return std::nullopt;
   return ratio(run.meanCpu_s(), set.uniform().meanCpu_s());
 }
 
-double visitShare(const ObjectRuns& set, const RunResult& run) {
+std::optional<double> visitShare(const ObjectRuns& set, const RunResult& run) {
   const Totals ours(run), all(set.uniform());
   return ratio(ratio(ours.visits, ours.scored), ratio(all.visits, all.scored));
 }
 
-double finestShare(const RunResult& run) {
+std::optional<double> finestShare(const RunResult& run) {
   const Totals totals(run);
   return ratio(totals.finest, totals.scored * static_cast<double>(run.rays_per_view));
 }
 
-double hiddenTimeShare(const ObjectRuns& set, const RunResult& run) {
+std::optional<double> hiddenTimeShare(const ObjectRuns& set, const RunResult& run) {
+  if (run.hidden.views == 0 || set.uniform().hidden.views == 0) return std::nullopt;
   return ratio(run.hidden.seconds, set.uniform().hidden.seconds);
 }
 
-double hiddenVisitShare(const ObjectRuns& set, const RunResult& run) {
+std::optional<double> hiddenVisitShare(const ObjectRuns& set, const RunResult& run) {
+  if (run.hidden.views == 0) return std::nullopt;
   return ratio(static_cast<double>(run.hidden.visits), static_cast<double>(set.uniform().hidden.visits));
+}
+
+std::optional<double> lostPoints(const ObjectRuns& set, const RunResult& run) {
+  if (!run.coverage || !(set.uniform().coverage.value_or(0.0) > 0.0)) return std::nullopt;
+  return 100 * (*set.uniform().coverage - *run.coverage);
+}
+
+std::optional<double> viewShare(const ObjectRuns& set, const RunResult& run) {
+  if (set.uniform().scans < 2) return std::nullopt;
+  return ratio(run.scans, set.uniform().scans);
+}
+
+std::optional<double> totalTimeShare(const ObjectRuns& set, const RunResult& run) {
+  if (set.uniform().scans < 2 || run.iterations.empty()) return std::nullopt;
+  return ratio(run.totalNbv_s(), set.uniform().totalNbv_s());
 }
 
 std::optional<double> literalStop(const RunResult& run) {
@@ -64,16 +87,22 @@ Table mainTable(const std::vector<ObjectRuns>& sets) {
                "planning s", "accuracy mm", "95 % mm", "literal stop"},
               {}};
   for (const ObjectRuns& set : sets)
-    for (const RunResult& run : set.runs)
+    for (const RunResult& run : set.runs) {
+      const auto share = [](const std::optional<double>& value, int decimals) {
+        return Cell::maybe(percent(value), decimals);
+      };
+      const auto millimetres = [](const std::optional<double>& metres) {
+        return Cell::maybe(metres ? std::optional(1000 * *metres) : std::nullopt, 2);
+      };
       table.rows.push_back(
           {set.object, Cell::number(set.size_m, 2), run.spec.label(), Cell::number(run.scans),
-           Cell::number(run.meanNbv_s(), 4), Cell::number(100 * timeShare(set, run), 1),
-           Cell::number(100 * cpuShare(set, run), 1), Cell::number(100 * visitShare(set, run), 2),
-           Cell::number(100 * finestShare(run), 1), Cell::number(100 * hiddenTimeShare(set, run), 2),
-           Cell::number(100 * hiddenVisitShare(set, run), 2), Cell::number(100 * run.coverage, 1, " %"),
+           Cell::number(run.meanNbv_s(), 4), share(timeShare(set, run), 1), share(cpuShare(set, run), 1),
+           share(visitShare(set, run), 2), share(finestShare(run), 1), share(hiddenTimeShare(set, run), 2),
+           share(hiddenVisitShare(set, run), 2), Cell::maybe(percent(run.coverage), 1, " %"),
            Cell::number(run.unknown_per_scan.empty() ? 0.0 : run.unknown_per_scan.back()), run.stop_reason,
-           Cell::number(run.totalNbv_s(), 3), Cell::number(1000 * run.accuracy_mean_m, 2),
-           Cell::number(1000 * run.accuracy_95_m, 2), Cell::maybe(literalStop(run))});
+           Cell::number(run.totalNbv_s(), 3), millimetres(run.accuracy_mean_m),
+           millimetres(run.accuracy_95_m), Cell::maybe(literalStop(run))});
+    }
   return table;
 }
 

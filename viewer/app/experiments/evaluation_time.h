@@ -21,7 +21,9 @@ struct EvaluationTime {
 /// Times the evaluation stage on the inputs of a step (evaluation.md, section 1). Wall clock: a first
 /// evaluation of a second or more stands, a shorter one was the warm-up, and the median of `repeats` counts.
 /// With no repeats nothing is measured: the first evaluation stands, and there is no CPU time.
+/// \param first the step's own evaluation
+/// \throws std::logic_error if the inputs are not the step's: other views are scored
 EvaluationTime evaluationTime(const UtilityInput& input, const HierarchicalPlannerConfig& config,
-                              double first_s, int repeats, const RunControl& control);
+                              const UtilitySearch& first, int repeats, const RunControl& control);
 
 }  // namespace vantage::experiments

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/run_control.h"
@@ -20,8 +21,8 @@ namespace vantage::experiments {
 /// What is to be run and how.
 struct ExperimentOptions {
   bool quick = false;                          ///< a reduced set that takes minutes
-  std::vector<ObjectSource> meshes;            ///< beside the stand-ins
-  std::vector<double> sizes_m = {0.20, 0.35};  ///< largest extents of the objects; quick: the first alone
+  std::vector<ObjectSource> meshes;            ///< A1: beside the stand-ins; quick, and A2: in their place
+  std::vector<double> sizes_m = {0.20, 0.35};  ///< largest extents of the objects, not empty; A2: the first
   std::string dataset;                         ///< folder of a recorded sequence for A3, may be empty
   int max_steps = 20;                          ///< planning steps of a run
   int repeats = 5;                             ///< of phases shorter than a second
@@ -32,6 +33,10 @@ struct ExperimentOptions {
 
 /// Objects and sizes that A1 runs over.
 std::vector<std::pair<ObjectSource, double>> tableObjects(const ExperimentOptions& options);
+/// The one that A2 runs on: the first mesh if there is one.
+std::pair<ObjectSource, double> meanObject(const ExperimentOptions& options);
+
+// An experiment that is interrupted reports what was finished and names the rest in Report::not_run.
 
 /// Simulated reconstruction, uniform against hierarchical ray tracing. `seconds_per_view`: mean evaluation
 /// time of a candidate in each hierarchical run at m = 2, resume, for A3.
@@ -39,13 +44,24 @@ Report runA1(const ExperimentOptions& options, std::vector<double>& seconds_per_
 /// Mean against maximum for inner nodes.
 Report runA2(const ExperimentOptions& options);
 /// Evaluation rate with views drawn in the workspace: simulated room and recorded sequence.
-/// \param seconds_per_view of A1; if empty, one run of A1 measures it
+/// \param seconds_per_view of A1; if empty, one run like those of A1 measures it
 Report runA3(const ExperimentOptions& options, const std::vector<double>& seconds_per_view);
+
+/// What can be known to stop an experiment before it runs: meshes, recorded data, settings.
+/// \throws InputError naming it
+void checkA1(const ExperimentOptions& options);
+void checkA2(const ExperimentOptions& options);
+void checkA3(const ExperimentOptions& options);
 
 /// Processor, threads and memory of this machine, a line each.
 std::vector<std::string> machineText();
 
 /// Defaults that the paper does not give (section 8 of the hierarchical specification), as they were used.
-std::vector<DefaultUsed> defaultsUsed(const Settings& settings);
+/// \param where experiment that used them \param simulated the scene is known, not recorded
+std::vector<DefaultUsed> defaultsUsed(const Settings& settings, const std::string& where, bool simulated);
+/// Puts the value that an experiment has of its own. \throws std::logic_error if there is no such default
+void setDefault(std::vector<DefaultUsed>& defaults, const std::string& name, const std::string& value);
+/// Sizes of the objects that were on the table.
+DefaultUsed sizesUsed(const std::vector<std::pair<ObjectSource, double>>& objects, const std::string& where);
 
 }  // namespace vantage::experiments

@@ -37,13 +37,16 @@ Table claimTable(const Report& report) {
   return table;
 }
 
-Table defaultTable(const Report& report) {
-  Table table{"defaults",
-              "Defaults that were used and that the paper does not give",
-              {"what", "value", "reason"},
-              {}};
-  for (const DefaultUsed& d : report.defaults) table.rows.push_back({d.name, d.value, d.reason});
-  return table;
+/// Adds defaults to those that are listed already.
+void mergeDefaults(std::vector<DefaultUsed> from, std::vector<DefaultUsed>& to) {
+  for (DefaultUsed& other : from) {
+    const auto same = std::ranges::find_if(
+        to, [&](const DefaultUsed& d) { return d.name == other.name && d.value == other.value; });
+    if (same == to.end())
+      to.push_back(std::move(other));
+    else if (!other.where.empty() && same->where != other.where)
+      same->where += (same->where.empty() ? "" : ", ") + other.where;
+  }
 }
 
 template <class T>
@@ -52,6 +55,15 @@ void moveInto(std::vector<T>& from, std::vector<T>& to) {
 }
 
 }  // namespace
+
+Table defaultTable(const Report& report) {
+  Table table{"defaults",
+              "Defaults that were used and that the paper does not give",
+              {"what", "value", "reason", "used by"},
+              {}};
+  for (const DefaultUsed& d : report.defaults) table.rows.push_back({d.name, d.value, d.reason, d.where});
+  return table;
+}
 
 Cell Cell::number(double value, int decimals, std::string_view unit) {
   Cell cell(fmt::format("{:.{}f}{}", value, decimals, unit));
@@ -74,8 +86,20 @@ void Report::append(Report other) {
   moveInto(other.claims, claims);
   moveInto(other.lines, lines);
   moveInto(other.bars, bars);
-  moveInto(other.defaults, defaults);
+  mergeDefaults(std::move(other.defaults), defaults);
   moveInto(other.notes, notes);
+  moveInto(other.not_run, not_run);
+}
+
+void Report::markInterruption() {
+  if (not_run.empty()) return;
+  for (Claim& claim : claims) {
+    if (claim.verdict == Verdict::NotRun) continue;
+    if (claim.verdict == Verdict::Pass) claim.verdict = Verdict::NotComparable;
+    claim.remark += "; interrupted: of the finished runs alone";
+  }
+  for (const std::string& part : not_run)
+    claims.push_back({part, "-", "-", "-", Verdict::NotRun, "interrupted"});
 }
 
 std::string tableText(const Table& table) {
@@ -150,8 +174,10 @@ std::string reportJson(const Report& report) {
     for (const LinePlot::Series& series : plot.series)
       json["curves"][plot.title][series.label] = series.values;
   for (const DefaultUsed& d : report.defaults)
-    json["defaults"].push_back({{"name", d.name}, {"value", d.value}, {"reason", d.reason}});
+    json["defaults"].push_back(
+        {{"name", d.name}, {"value", d.value}, {"reason", d.reason}, {"used_by", d.where}});
   json["notes"] = report.notes;
+  json["not_run"] = report.not_run;
   return json.dump(2) + "\n";
 }
 

@@ -69,6 +69,7 @@ struct BarPlot {
 /// A value that the paper does not give and that was used.
 struct DefaultUsed {
   std::string name, value, reason;
+  std::string where;  ///< experiments that used it, e.g. "A1, A3 room"
 };
 
 /// Everything that a reproduction prints and writes.
@@ -81,11 +82,19 @@ struct Report {
   std::vector<BarPlot> bars;
   std::vector<DefaultUsed> defaults;
   std::vector<std::string> notes;
+  std::vector<std::string> not_run;  ///< what an interruption left out, e.g. "A1 compact 0.35 m"
 
-  /// Takes over another report's tables, claims, plots and notes.
+  /// Takes over everything of another report but its title. A default that both have with the same value is
+  /// listed once, for both.
   void append(Report other);
+
+  /// Where something was not run: a claim for each part that says so, and no claim stays passed that was
+  /// judged on the finished part alone.
+  void markInterruption();
 };
 
+/// The defaults of a report as a table.
+Table defaultTable(const Report& report);
 /// A table as aligned columns with ` | ` between them, title first.
 std::string tableText(const Table& table);
 /// Final summary, defaults and notes as text.

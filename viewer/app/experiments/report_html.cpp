@@ -96,14 +96,7 @@ std::string reportHtml(const Report& report) {
   for (const BarPlot& plot : report.bars) html += plotSvg(plot);
   for (const LinePlot& plot : report.lines) html += plotSvg(plot);
   for (const Table& table : report.tables) html += tableHtml(table);
-  if (!report.defaults.empty()) {
-    Table defaults{"defaults",
-                   "Defaults that were used and that the paper does not give",
-                   {"what", "value", "reason"},
-                   {}};
-    for (const DefaultUsed& d : report.defaults) defaults.rows.push_back({d.name, d.value, d.reason});
-    html += tableHtml(defaults);
-  }
+  if (!report.defaults.empty()) html += tableHtml(defaultTable(report));
   return html + listHtml("Notes", report.notes) + "</body></html>\n";
 }
 

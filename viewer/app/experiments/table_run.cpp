@@ -11,6 +11,7 @@
 #include "hardware/simulated_depth_camera.h"
 #include "hardware/simulated_robot.h"
 #include "viewer/app/experiments/evaluation_time.h"
+#include "viewer/app/experiments/stop_words.h"
 
 namespace vantage::experiments {
 namespace {
@@ -37,7 +38,7 @@ class Meter {
     const UtilityInput input{*world.pyramid(), tree_, box_, candidates_, current, executed_};
 
     IterationResult step = countsOf(search);
-    const EvaluationTime time = evaluationTime(input, config_, search.evaluation_s, repeats_, control_);
+    const EvaluationTime time = evaluationTime(input, config_, search, repeats_, control_);
     step.nbv_s = record.timings.generation.value_or(0.0) + time.wall_s;
     step.cpu_s = time.cpu_s;
     if (step.literal_stop && result_.literal_stop == 0) result_.literal_stop = record.step;
@@ -54,6 +55,7 @@ class Meter {
     step.candidates = search.counts.poses_generated;
     step.scored = search.counts.poses_scored;
     step.survivors = search.ranking.size();
+    step.rejected_registration = search.rejected_registration;
     step.rays = search.counts.rays;
     step.finest_rays = search.finest_rays_cast;
     step.visits = search.counts.voxels_visited;
@@ -89,17 +91,20 @@ class Meter {
 
   /// Requirement (i) of section 10.4: the hierarchical caster without coarse levels against the uniform one.
   void compareWithHierarchical(const UtilityInput& input, const UtilitySearch& search) {
-    HierarchicalQuery query;
-    query.bounds = box_;
-    std::vector<std::uint8_t> differs(search.views.size(), 0);
-    tbb::parallel_for(std::size_t{0}, differs.size(), [&](std::size_t n) {
+    enum : std::uint8_t { kNotCast, kEqual, kDiffers };
+    const HierarchicalQuery query = queryOf(box_, config_);
+    std::vector<std::uint8_t> found(search.views.size(), kNotCast);
+    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t n) {
       const ViewUtility& view = search.views[n];
-      if (view.rays.rays_cast > 0)  // not dropped before its rays
-        differs[n] = castHierarchical(input.pyramid, tree_, 0, view.T_world_camera, query) != view.rays;
+      if (view.rays.rays_cast == 0) return;  // dropped before its rays
+      const RayCounts again = castHierarchical(input.pyramid, tree_, 0, view.T_world_camera, query);
+      found[n] = again == view.rays ? kEqual : kDiffers;
     });
-    result_.compared_with_uniform += search.counts.poses_scored;
-    result_.different_from_uniform +=
-        static_cast<std::uint64_t>(std::count(differs.begin(), differs.end(), 1));
+    const auto count = [&](std::uint8_t kind) {
+      return static_cast<std::uint64_t>(std::count(found.begin(), found.end(), kind));
+    };
+    result_.compared_with_uniform += count(kEqual) + count(kDiffers);
+    result_.different_from_uniform += count(kDiffers);
   }
 
   /// The grids must never drift from the octree that they stand for.
@@ -108,14 +113,23 @@ class Meter {
     const GridGeometry& g = pyramid.finest().geometry();
     const Eigen::Vector3i low = g.voxelAt(box_.min()).cwiseMax(0);
     const Eigen::Vector3i high = g.voxelAt(box_.max()).cwiseMin(g.size - Eigen::Vector3i::Ones());
+    if ((low.array() > high.array()).any()) return;
+    ++result_.compared_steps;
     for (int level = 0; level <= pyramid.coarseLevels(); ++level) {
-      const int step = 1 << level;
-      for (int k = low.z(); k <= high.z(); k += step)
-        for (int j = low.y(); j <= high.y(); j += step)
-          for (int i = low.x(); i <= high.x(); i += step)
-            result_.wrong_labels += pyramid.level(level).at(pyramid.node({i, j, k}, level)) !=
-                                    world.octree()->label({i, j, k}, level);
+      const Eigen::Vector3i first = pyramid.node(low, level), last = pyramid.node(high, level);
+      for (int k = first.z(); k <= last.z(); ++k)
+        for (int j = first.y(); j <= last.y(); ++j)
+          for (int i = first.x(); i <= last.x(); ++i)
+            compareLabel(*world.octree(), pyramid, {i, j, k}, level, low);
     }
+  }
+
+  /// \param low least voxel of the region; the node has voxels in it
+  void compareLabel(const OccupancyOctree& octree, const StatePyramid& pyramid, const Eigen::Vector3i& node,
+                    int level, const Eigen::Vector3i& low) {
+    const Eigen::Vector3i voxel = (node * (1 << level) - pyramid.offset(level)).cwiseMax(low);
+    ++result_.compared_labels;
+    result_.wrong_labels += pyramid.level(level).at(node) != octree.label(voxel, level);
   }
 
   const TableSetup& setup_;
@@ -139,14 +153,6 @@ void measureAccuracy(const TableSetup& setup, const WorldModel& world, const Box
   std::sort(distances.begin(), distances.end());
   result.accuracy_mean_m = std::accumulate(distances.begin(), distances.end(), 0.0) / distances.size();
   result.accuracy_95_m = distances[static_cast<std::size_t>(std::ceil(0.95 * distances.size())) - 1];
-}
-
-/// Why a run without a further view ended.
-std::string refined(const std::string& stop_reason, const RunResult& result) {
-  if (stop_reason != "finished" || result.iterations.empty()) return stop_reason;
-  return result.iterations.back().survivors == 0
-             ? "finished: too little known surface in every view (registration)"
-             : "finished: no view reaches h_stop";
 }
 
 ExplorationConfig configOf(const TableSetup& setup, const RunSpec& spec) {
@@ -190,16 +196,23 @@ RunResult runOnTable(const TableSetup& setup, const RunSpec& spec, int repeats, 
   RunResult result;
   result.spec = spec;
   Meter meter(setup, config, spec, repeats, control, result);
+  std::shared_ptr<const UtilitySearch> last;
   explorer.addObserver([&](const std::shared_ptr<const StepRecord>& record) {
     if (record->stage == Stage::Fuse) {
       ++result.scans;
       result.unknown_per_scan.push_back(static_cast<double>(record->box->unknown));
     }
-    if (record->stage == Stage::Evaluation) meter.evaluated(*record, explorer.world());
-    if (record->stage == Stage::Done) result.coverage = record->metrics.coverage.value_or(0.0);
+    if (record->stage == Stage::Evaluation) {
+      last = record->utilities;
+      meter.evaluated(*record, explorer.world());
+    }
+    if (record->stage == Stage::Done && !setup.truth->observableSurface().empty())
+      result.coverage = record->metrics.coverage;
   });
-  result.stop_reason = refined(explorer.run(control).stop_reason, result);
+  const ExplorationResult ended = explorer.run(control);
   control.check();
+  result.cut_off = ended.stop_reason == kStepsDone;
+  result.stop_reason = stopWords(ended, last.get(), config.hierarchical.stop_gain);
   measureAccuracy(setup, explorer.world(), config.objectBox(), result);
   return result;
 }

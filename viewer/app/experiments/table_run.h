@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,10 @@ struct TableSetup {
   double table_top_m = 0.0;  ///< sensors below it are hidden by the table
   std::unique_ptr<CandidateTruth> truth;
 };
+
+/// Settings of a scene on the table. \param steps most planning steps \param tune changes the settings after
+/// everything else; may be empty \throws InputError for settings that don't go together
+Settings tableSettings(const SceneFile& scene, int steps, const std::function<void(Settings&)>& tune);
 
 /// \param steps most planning steps \param tune changes the settings after everything else; may be empty
 TableSetup setUpTable(const ObjectSource& source, double size_m, int steps,
@@ -47,6 +52,7 @@ struct IterationResult {
   double nbv_s = 0.0;  ///< candidates, cascade and choice, without motion planning
   double cpu_s = 0.0;  ///< CPU time of cascade and choice, all threads
   std::uint64_t candidates = 0, scored = 0, survivors = 0, rays = 0, finest_rays = 0, visits = 0;
+  std::uint64_t rejected_registration = 0;
   std::uint64_t occupied_rays = 0, unknown_rays = 0;  ///< over all views
   std::uint64_t unknown_voxels = 0;                   ///< in the object's box, after the scan
   std::int64_t chosen = -1;                           ///< id of the next view, -1 = none
@@ -67,15 +73,18 @@ struct RunResult {
   std::vector<IterationResult> iterations;
   std::vector<double> unknown_per_scan;
   int scans = 0;
-  std::string stop_reason;
-  int literal_stop = 0;  ///< iteration at which the literal rule would have stopped, 0 = never (D-A18)
-  double coverage = 0.0;
-  double accuracy_mean_m = 0.0, accuracy_95_m = 0.0;
+  std::string stop_reason;  ///< in words (stopWords())
+  bool cut_off = false;     ///< the steps were used up before the stop rule fired: ends don't compare
+  int literal_stop = 0;     ///< iteration at which the literal rule would have stopped, 0 = never (D-A18)
+  std::optional<double> coverage;  ///< share in [0,1]; none if no candidate sees any of the object
+  std::optional<double> accuracy_mean_m, accuracy_95_m;  ///< none without an occupied voxel in the box
   HiddenViews hidden;
   std::uint64_t rays_per_view = 0;           ///< of the whole finest bundle
   std::uint64_t different_from_uniform = 0;  ///< m = 0: views whose counts the hierarchical caster disputes
   std::uint64_t compared_with_uniform = 0;
-  std::uint64_t wrong_labels = 0;  ///< voxels and nodes of the pyramid that the octree labels otherwise
+  std::uint64_t wrong_labels = 0;     ///< voxels and nodes of the pyramid that the octree labels otherwise
+  std::uint64_t compared_labels = 0;  ///< of so many,
+  int compared_steps = 0;             ///< over all steps at which they were compared
   double meanNbv_s() const;
   double totalNbv_s() const;
   double meanCpu_s() const;

@@ -16,6 +16,19 @@ Box objectBox(const SceneFile& scene) {
   return box;
 }
 
+Settings tableSettings(const SceneFile& scene, int steps, const std::function<void(Settings&)>& tune) {
+  Settings settings;
+  applyToml(settings, scene.text, scene.source_path, sceneGeometryKeys());
+  ExplorationConfig& exploration = settings.exploration;
+  exploration.octree.object_box = exploration.workspace = objectBox(scene);
+  exploration.octree.known_scene = true;
+  exploration.steps = steps;
+  if (tune) tune(settings);
+  exploration.planners = {PlannerKind::Hierarchical};  // each run has its own; no other kind can be compared
+  settings.validate();
+  return settings;
+}
+
 TableSetup setUpTable(const ObjectSource& source, double size_m, int steps,
                       const std::function<void(Settings&)>& tune) {
   TableSetup setup;
@@ -23,14 +36,8 @@ TableSetup setUpTable(const ObjectSource& source, double size_m, int steps,
   setup.size_m = size_m;
   setup.scene = sceneOnTable(source, size_m);
   setup.table_top_m = tableTop_m(setup.scene);
-  applyToml(setup.settings, setup.scene.text, setup.scene.source_path, sceneGeometryKeys());
-  ExplorationConfig& exploration = setup.settings.exploration;
-  exploration.octree.object_box = exploration.workspace = objectBox(setup.scene);
-  exploration.octree.known_scene = true;
-  exploration.planners = {PlannerKind::Hierarchical};
-  exploration.steps = steps;
-  if (tune) tune(setup.settings);
-  setup.settings.validate();
+  setup.settings = tableSettings(setup.scene, steps, tune);
+  const ExplorationConfig& exploration = setup.settings.exploration;
   const auto candidates = makeCandidates(exploration.hierarchical, exploration.objectBox(),
                                          exploration.volume.bounds(), exploration.seed);
   setup.truth = std::make_unique<CandidateTruth>(setup.scene, candidates, exploration.hierarchical.body_m);
