@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
+#include <utility>
 
 #include "io/config_file.h"
 #include "io/text_file.h"
@@ -17,11 +17,45 @@ using experiments::Report;
 using experiments::UpAxis;
 
 struct ReproduceOptions {
-  std::string experiment, output, dataset, up = "z";
-  std::vector<std::string> meshes;
-  std::vector<double> sizes_m = {0.20, 0.35};
+  std::vector<std::string> experiments, meshes;
+  std::string output, dataset, up;
+  std::vector<double> sizes_m;
   bool quick = false;
 };
+
+/// What the user chose; A1 first, since A3 compares with it.
+struct Choice {
+  bool a1 = false, a2 = false, a3 = false;
+
+  explicit Choice(const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+      a1 |= name == "A1" || name == "all";
+      a2 |= name == "A2" || name == "all";
+      a3 |= name == "A3" || name == "all";
+    }
+  }
+  std::string text() const {
+    std::string words;
+    for (const auto& [chosen, name] : {std::pair(a1, "A1"), std::pair(a2, "A2"), std::pair(a3, "A3")})
+      if (chosen) words += (words.empty() ? "" : ", ") + std::string(name);
+    return words;
+  }
+};
+
+/// Refuses options that would change nothing.
+void requireEffect(const Choice& choice, const ReproduceOptions& o) {
+  const auto refuse = [&](const char* option, const std::string& why) { throw InputError(option, why); };
+  if (!o.dataset.empty() && !choice.a3)
+    refuse("--dataset", "is used by A3 alone; add A3 or leave the option out");
+  if (!o.up.empty() && o.meshes.empty())
+    refuse("--up", "turns meshes; add --mesh FILE or leave the option out");
+  if (choice.a1) return;
+  const std::size_t most = choice.a2 ? 1 : 0;
+  const std::string why =
+      choice.a2 ? "A2 takes one; give one or add A1" : "A3 has a scene of its own; add A1 or A2";
+  if (o.meshes.size() > most) refuse("--mesh", why);
+  if (o.sizes_m.size() > most) refuse("--sizes", why);
+}
 
 UpAxis upAxis(const std::string& name) {
   return name == "x" ? UpAxis::X : name == "y" ? UpAxis::Y : UpAxis::Z;
@@ -34,18 +68,23 @@ void tune(Settings& settings, const GlobalOptions& global) {
   if (global.seed) applyAssignment(settings, fmt::format("exploration.seed={}", *global.seed), "--seed");
 }
 
+std::vector<double> sizesOf(const ReproduceOptions& options) {
+  for (const double size_m : options.sizes_m)
+    if (!(size_m >= 0.02 && size_m <= 0.6))
+      throw InputError(fmt::format("--sizes {}", size_m), "objects of 0.02 to 0.6 m fit on the table");
+  if (!options.sizes_m.empty()) return options.sizes_m;
+  return options.quick ? std::vector{0.20} : std::vector{0.20, 0.35};
+}
+
 ExperimentOptions experimentOptions(const GlobalOptions& global, const ReproduceOptions& options,
                                     Console& console) {
   ExperimentOptions result;
   result.quick = options.quick;
-  for (const double size_m : options.sizes_m)
-    if (!(size_m >= 0.02 && size_m <= 0.6))
-      throw InputError(fmt::format("--sizes {}", size_m), "objects of 0.02 to 0.6 m fit on the table");
-  result.sizes_m = options.sizes_m;
+  result.sizes_m = sizesOf(options);
   for (const std::string& mesh : options.meshes)
     result.meshes.push_back(experiments::meshObject(mesh, upAxis(options.up)));
   result.dataset = options.dataset;
-  result.max_steps = options.quick ? 6 : 20;
+  result.max_steps = options.quick ? 6 : 20;  // 20: section 8 of the hierarchical specification
   result.tune = [&global](Settings& settings) { tune(settings, global); };
   result.say = [&global, &console](const std::string& line) {
     console.clear();
@@ -63,47 +102,73 @@ void requireFolder(const std::string& path) {
   requireCreatable(std::filesystem::path(path) / "report.html");
 }
 
-Report runAll(const std::string& experiment, const ExperimentOptions& options) {
-  const bool all = experiment == "all";
-  Report report;
-  std::vector<double> seconds_per_view;
-  const auto add = [&](Report part) {
-    if (!report.defaults.empty()) part.defaults.clear();
-    report.append(std::move(part));
-  };
-  if (all || experiment == "A1") add(runA1(options, seconds_per_view));
-  if (all || experiment == "A2") add(runA2(options));
-  if (all || experiment == "A3") add(runA3(options, seconds_per_view));
-  return report;
+/// What can be refused is refused before hours are spent.
+void check(const Choice& choice, const ExperimentOptions& options) {
+  if (choice.a1) checkA1(options);
+  if (choice.a2) checkA2(options);
+  if (choice.a3) checkA3(options);
 }
 
-int reproduce(const GlobalOptions& global, const ReproduceOptions& options) {
-  requireFolder(options.output);
-  Console console(global);
-  const ExperimentOptions chosen = experimentOptions(global, options, console);
-  Report report;
-  try {
-    report = runAll(options.experiment, chosen);
-  } catch (const Cancelled&) {
-    throw Interrupted(options.output + ": interrupted; nothing was written");
-  }
-  console.clear();
-  report.title = "Reproduction of experiment" +
-                 std::string(options.experiment == "all" ? "s A1, A2, A3" : " ") +
-                 (options.experiment == "all" ? "" : options.experiment) + (options.quick ? " (quick)" : "");
-  report.setup = experiments::machineText();
-  report.setup.push_back(versionText(false));
-  report.setup.push_back("command: " + global.command_line);
+/// \param report gets what is finished, even if a later experiment fails
+void runChosen(const Choice& choice, const ExperimentOptions& options, Report& report) {
+  std::vector<double> seconds_per_view;
+  const auto add = [&](Report part) {
+    part.markInterruption();
+    report.append(std::move(part));
+  };
+  if (choice.a1) add(runA1(options, seconds_per_view));
+  if (choice.a2) add(runA2(options));
+  if (choice.a3) add(runA3(options, seconds_per_view));
+}
+
+void printReport(const GlobalOptions& global, const Report& report) {
   for (const std::string& line : report.setup) say(global, line);
   for (const experiments::Table& table : report.tables)
     if (table.name != "a1_steps") say(global, "\n" + experiments::tableText(table));
   say(global, experiments::summaryText(report));
+}
+
+/// Prints and writes the report. Returns the number of files in the folder.
+std::size_t publish(const GlobalOptions& global, const ReproduceOptions& options, Report& report) {
+  report.title =
+      fmt::format("Reproduction of {}{}{}", Choice(options.experiments).text(),
+                  options.quick ? " (quick)" : "", report.not_run.empty() ? "" : ", not run to the end");
+  report.setup = experiments::machineText();
+  report.setup.push_back(versionText(false));
+  report.setup.push_back("command: " + global.command_line);
+  printReport(global, report);
   const auto files = experiments::writeReport(report, options.output);
   say(global, fmt::format("{} files in {}", files.size(), options.output));
   if (global.json == "-")
     fmt::print("{}", experiments::reportJson(report));
   else if (!global.json.empty())
     saveFile(global.json, experiments::reportJson(report));
+  return files.size();
+}
+
+int reproduce(const GlobalOptions& global, const ReproduceOptions& options) {
+  const Choice choice(options.experiments);
+  requireEffect(choice, options);
+  requireFolder(options.output);
+  if (!global.json.empty() && global.json != "-") requireCreatable(global.json);
+  Console console(global);
+  const ExperimentOptions chosen = experimentOptions(global, options, console);
+  check(choice, chosen);
+  Report report;
+  try {
+    runChosen(choice, chosen, report);
+  } catch (...) {  // of hours of work what is finished is kept
+    console.clear();
+    report.not_run.push_back("the experiment that failed, and what follows it");
+    if (!report.tables.empty()) publish(global, options, report);
+    throw;
+  }
+  console.clear();
+  if (report.tables.empty()) throw Interrupted(options.output + ": interrupted; nothing was written");
+  const std::size_t files = publish(global, options, report);
+  if (!report.not_run.empty())
+    throw Interrupted(fmt::format("{}: interrupted; {} files hold what was finished; not run: {}",
+                                  options.output, files, fmt::join(report.not_run, "; ")));
   return 0;
 }
 
@@ -114,9 +179,9 @@ void addReproduce(CLI::App& app, const GlobalOptions& global, Action& action) {
   CLI::App* command =
       app.add_subcommand("reproduce", "Run the experiments of the papers and print their tables");
   command
-      ->add_option("experiment", o->experiment,
-                   "A1: uniform against hierarchical ray tracing; A2: mean "
-                   "against maximum; A3: evaluation rate")
+      ->add_option("experiment", o->experiments,
+                   "One or more; A1: uniform against hierarchical ray tracing; A2: mean against maximum; A3: "
+                   "evaluation rate")
       ->required()
       ->check(CLI::IsMember({"A1", "A2", "A3", "all"}));
   command->add_option("-o,--output", o->output, "Folder for CSV, JSON and one HTML page")
@@ -124,12 +189,19 @@ void addReproduce(CLI::App& app, const GlobalOptions& global, Action& action) {
       ->type_name("DIR");
   command->add_flag("--quick", o->quick, "One object, one size, fewer modes and steps");
   command
-      ->add_option("--mesh", o->meshes, "Also on this object (PLY, OBJ, STL); with --quick instead of ours")
+      ->add_option(
+          "--mesh", o->meshes,
+          "PLY, OBJ or STL; A1: also on this object, repeatable; with --quick, and in A2, instead of "
+          "ours")
+      ->allow_extra_args(false)
       ->type_name("FILE");
-  command->add_option("--up", o->up, "Axis of the meshes that points up")
+  command->add_option("--up", o->up, "Axis of the meshes that points up (default: z)")
       ->check(CLI::IsMember({"x", "y", "z"}));
-  command->add_option("--sizes", o->sizes_m, "Largest extents of the objects, metres (default: 0.20,0.35)")
+  command
+      ->add_option("--sizes", o->sizes_m,
+                   "Largest extents of the objects, metres (default: 0.20,0.35; with --quick 0.20)")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->type_name("M,M");
   command->add_option("--dataset", o->dataset, "Recorded sequence for A3")->type_name("DIR");
   command->footer("Example: vantage reproduce A1 --quick -o reproduction");
