@@ -49,6 +49,11 @@ void checkOctree(const OctreeHeader& octree, const GridGeometry& volume) {
   } catch (const std::invalid_argument& error) {
     throw DamagedBytes(error.what());
   }
+  const Box& box = octree.object_box;
+  if (!box.min().allFinite() || !box.max().allFinite() || box.isEmpty())
+    throw DamagedBytes("the box of its object is no box");
+  if (octree.planner.coarse_levels > maxCoarseLevels(octree.planner.sensor, octree.map.voxel_size_m))
+    throw DamagedBytes("its coarse levels do not fit its sensor");
   const Eigen::Vector3d voxels = volume.bounds().sizes() / octree.map.voxel_size_m;
   if (!(voxels.array() <= kMaxGridSize).all() || !(voxels.prod() <= static_cast<double>(kMaxGridVoxels)))
     throw DamagedBytes("its octree has an impossible size");
@@ -141,6 +146,11 @@ void addRealised(Database& database, StepRecord& record, int step) {
   record.stage = realised.stage;
   record.realised_voxels = realised.voxels;
   record.served = realised.served;
+}
+
+/// Grid of the octree of a run that has one.
+GridGeometry octreeGrid(const RunHeader& header) {
+  return OccupancyOctree::gridAround(header.volume.bounds(), header.octree->map.voxel_size_m);
 }
 
 }  // namespace
@@ -295,7 +305,7 @@ BrickSet RunReader::advanceVolume(TsdfVolume& volume, int from_step, int step) c
 }
 
 BrickSet RunReader::advanceOctree(OccupancyOctree& octree, int from_step, int step) const {
-  if (!state_->header.octree || !(octree.geometry() == emptyOctree(state_->header).geometry()))
+  if (!state_->header.octree || !(octree.geometry() == octreeGrid(state_->header)))
     throw std::invalid_argument(
         "advanceOctree: the octree differs from the run's; make it with emptyOctree()");
   return state_->advance<OctreeBrick>(octree, from_step, step);
@@ -303,10 +313,7 @@ BrickSet RunReader::advanceOctree(OccupancyOctree& octree, int from_step, int st
 
 OccupancyOctree emptyOctree(const RunHeader& header) {
   if (!header.octree) throw std::invalid_argument("emptyOctree: the run has no octree");
-  const OctreeMapConfig& map = header.octree->map;
-  OccupancyOctree octree(OccupancyOctree::gridAround(header.volume.bounds(), map.voxel_size_m),
-                         header.octree->object_box, VoxelState::Unknown, map.occupancy);
-  return octree;
+  return {octreeGrid(header), header.octree->object_box, VoxelState::Unknown, header.octree->map.occupancy};
 }
 
 }  // namespace vantage

@@ -167,6 +167,24 @@ TEST(RunFile, GivesBackTheOctreeAsItWasAtEveryStep) {
   EXPECT_THROW(emptyOctree(header), std::invalid_argument);
 }
 
+TEST(RunFile, RefusesAnOctreeThatCannotBe) {
+  const TestFolder folder;
+  const auto openWith = [&](const auto& damage) {
+    RunHeader header = randomHeader(5);
+    damage(*header.octree);
+    RunWriter(folder / "a.vantage", header).finish("steps done");
+    return inputError([&] { RunReader r(folder / "a.vantage"); });
+  };
+  const auto boxOf = [](double x) { return [x](OctreeHeader& octree) { octree.object_box.min().x() = x; }; };
+  for (const double x : {std::nan(""), -HUGE_VAL, HUGE_VAL, 5.0})
+    EXPECT_THAT(openWith(boxOf(x)), ::testing::AllOf(HasSubstr("is damaged"), HasSubstr("box"))) << x;
+  EXPECT_THAT(openWith([](OctreeHeader& octree) {
+                octree.map.voxel_size_m = 0.5;  // two levels fit the default sensor
+                octree.planner.coarse_levels = 3;
+              }),
+              ::testing::AllOf(HasSubstr("is damaged"), HasSubstr("coarse levels")));
+}
+
 TEST(RunFile, IsOneFileOnceFinishedAndReadingMakesNoOther) {
   const TestFolder folder;
   writeRun(folder / "a.vantage", 5, 2);
