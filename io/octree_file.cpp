@@ -86,8 +86,16 @@ OccupancyOctree parse(const std::string& bytes, const std::optional<Box>& bounds
 
 OccupancyOctree read(const fs::path& path, const std::optional<Boxes>& boxes, const OccupancyConfig& config) {
   const std::string bytes = readTextFile(path, kLargestFile);
+  const bool empty = bytes.ends_with("\ndata\n");
+  if (!boxes && empty) {
+    parse(bytes, Box(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()),
+          config);  // a bad file is refused as such
+    throw InputError(path.string(), "holds no voxel, and there is no " +
+                                        octreeBoxPath(path).filename().string() +
+                                        " beside it with map_min_m and map_max_m to say which space it maps");
+  }
   if (!boxes) return parse(bytes, std::nullopt, config);
-  if (bytes.ends_with("\ndata\n")) {
+  if (empty) {
     OccupancyOctree map = parse(bytes, boxes->map, config);
     map.recut(map.geometry(), boxes->object.value_or(boxes->map));
     return map;

@@ -82,7 +82,12 @@ TEST_F(OctreeFile, MapsThatHoldNothingComeBackToo) {
   EXPECT_EQ(back.geometry().size, map.geometry().size);
   EXPECT_TRUE(back.objectBox().isApprox(kObject));
   std::filesystem::remove(octreeBoxPath(folder_ / "m.bt"));
-  EXPECT_THAT(readError(folder_ / "m.bt"), HasSubstr("holds no voxel"));
+  EXPECT_THAT(readError(folder_ / "m.bt"), HasSubstr("m.bt: holds no voxel, and there is no m.bt.toml"));
+  // What is wrong with the file itself is said first.
+  std::string other = read("m.bt");
+  other.replace(other.find("id OcTree"), 9, "id ColorOcTree");
+  write("other.bt", other);
+  EXPECT_THAT(readError(folder_ / "other.bt"), HasSubstr("'ColorOcTree'"));
 }
 
 TEST_F(OctreeFile, RefusesBadFilesAndNamesThem) {
