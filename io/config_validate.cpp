@@ -1,3 +1,4 @@
+#include <sstream>
 #include <stdexcept>
 
 #include "core/geometry/check.h"
@@ -5,6 +6,19 @@
 
 namespace vantage {
 namespace {
+
+/// A box of no extent stands for the workspace; every other one has some along each axis.
+void checkObjectBox(const Box& box) {
+  if (box.min() == box.max()) return;
+  for (int a = 0; a < 3; ++a)
+    if (!(box.min()[a] < box.max()[a])) {
+      std::ostringstream text;
+      text << "octree.object_min_m is not below octree.object_max_m in "
+           << "xyz"[a] << " (" << box.min()[a] << ", " << box.max()[a]
+           << "); give both corners of the object's box";
+      throw std::invalid_argument(text.str());
+    }
+}
 
 /// How the structs fit together; each struct checks its own fields.
 void validateTogether(const Settings& settings) {
@@ -17,6 +31,7 @@ void validateTogether(const Settings& settings) {
   if (!workspace.intersects(volume.bounds()))
     throw std::invalid_argument("workspace lies outside the mapped volume; change workspace.* or volume.*");
   settings.exploration.fusion.validate(volume.voxel_size_m);
+  checkObjectBox(settings.exploration.octree.object_box);
 }
 
 }  // namespace

@@ -270,6 +270,11 @@ TEST(Settings, ValuesThatDoNotFitTogetherAreRefused) {
   settings = {};
   settings.camera.max_range_m = 0.1;
   EXPECT_THAT(errorOf([&] { settings.validate(); }), HasSubstr("max_range_m"));
+  for (const Eigen::Vector3d& upper : {Eigen::Vector3d(-0.1, -0.1, 0.3), Eigen::Vector3d(0.1, 0.0, 0.3)}) {
+    settings = {};  // two axes reversed give a volume above 0; one is flat
+    settings.exploration.octree.object_box = Box(Eigen::Vector3d::Zero(), upper);
+    EXPECT_THAT(errorOf([&] { settings.validate(); }), HasSubstr("octree.object_min_m is not below"));
+  }
 }
 
 }  // namespace
