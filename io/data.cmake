@@ -16,6 +16,7 @@ vantage_library(vantage_io_data
     config_fields_table.cpp
     config_file.cpp
     config_validate.cpp
+    csv_table.cpp
     dataset.cpp
     dataset_layouts.cpp
     dataset_settings.cpp

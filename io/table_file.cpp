@@ -1,6 +1,7 @@
 #include "io/table_file.h"
 
 #include <charconv>
+#include <charconv>
 #include <cmath>
 #include <iostream>
 #include <iterator>
@@ -10,59 +11,13 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "io/csv_table.h"
 #include "io/text_file.h"
 
 namespace vantage {
 namespace {
 
 constexpr std::size_t kLargestTable = std::size_t{1} << 30;
-
-/// Collects rows; everything is written at the end, so that a table is whole or absent.
-class Table {
- public:
-  explicit Table(std::string_view header) : text_(header) { text_ += '\n'; }
-
-  Table& cell(double value) { return cell(std::string_view(shortestNumber(value))); }
-  Table& cell(float value) {
-    char buffer[32];
-    return cell(std::string_view(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr));
-  }
-  template <std::integral T>
-  Table& cell(T value) {
-    return cell(std::string_view(std::to_string(value)));
-  }
-  Table& cell(std::string_view word) {
-    if (!row_empty_) text_ += ',';
-    row_empty_ = false;
-    text_ += word;
-    return *this;
-  }
-  template <class Vector>
-  Table& cells(const Vector& v) {
-    return cell(v[0]).cell(v[1]).cell(v[2]);
-  }
-  Table& pose(const Pose& pose) {
-    const Eigen::Quaterniond q = orientationOf(pose);
-    return cells(Eigen::Vector3d(pose.translation())).cell(q.x()).cell(q.y()).cell(q.z()).cell(q.w());
-  }
-  void endRow() {
-    text_ += '\n';
-    row_empty_ = true;
-  }
-
-  void save(const std::string& path) const {
-    if (path == "-") {
-      std::cout << text_ << std::flush;
-      if (!std::cout) throw std::runtime_error("standard output: cannot be written");
-      return;
-    }
-    saveFile(path, text_);
-  }
-
- private:
-  std::string text_;
-  bool row_empty_ = true;
-};
 
 std::string readAll(const std::string& path) {
   if (path != "-") return readTextFile(path, kLargestTable);
@@ -172,14 +127,14 @@ Pose poseOf(const Reader& table) {
 
 void writeContourVoxels(const std::string& path, const GridGeometry& geometry,
                         const std::vector<ContourVoxel>& voxels) {
-  Table table("i,j,k,x_m,y_m,z_m,nx,ny,nz,group");
+  CsvTable table("i,j,k,x_m,y_m,z_m,nx,ny,nz,group");
   for (const ContourVoxel& v : voxels)
     table.cells(v.voxel).cells(geometry.center(v.voxel)).cells(v.normal).cell(v.group).endRow();
   table.save(path);
 }
 
 void writeContourPoints(const std::string& path, const std::vector<ContourPoint>& points) {
-  Table table("group,x_m,y_m,z_m,nx,ny,nz,voxels");
+  CsvTable table("group,x_m,y_m,z_m,nx,ny,nz,voxels");
   for (std::size_t i = 0; i < points.size(); ++i)
     table.cell(i).cells(points[i].position_m).cells(points[i].normal).cell(points[i].voxels).endRow();
   table.save(path);
@@ -188,7 +143,7 @@ void writeContourPoints(const std::string& path, const std::vector<ContourPoint>
 void writeViews(const std::string& path, const std::vector<ViewRow>& views) {
   bool groups = false;
   for (const ViewRow& view : views) groups = groups || view.group.has_value();
-  Table table(groups ? "id,x_m,y_m,z_m,qx,qy,qz,qw,group" : "id,x_m,y_m,z_m,qx,qy,qz,qw");
+  CsvTable table(groups ? "id,x_m,y_m,z_m,qx,qy,qz,qw,group" : "id,x_m,y_m,z_m,qx,qy,qz,qw");
   for (const ViewRow& view : views) {
     table.cell(view.id).pose(view.T_world_camera);
     if (groups) view.group ? table.cell(*view.group) : table.cell(std::string_view());
@@ -212,7 +167,7 @@ std::vector<ViewRow> readViews(const std::string& path) {
 }
 
 void writeGains(const std::string& path, const std::vector<GainRow>& gains) {
-  Table table("id,unknown,occupied,rays,visited,reject");
+  CsvTable table("id,unknown,occupied,rays,visited,reject");
   for (const GainRow& gain : gains)
     table.cell(gain.id)
         .cell(gain.unknown)
@@ -225,7 +180,7 @@ void writeGains(const std::string& path, const std::vector<GainRow>& gains) {
 }
 
 void writeSegments(const std::string& path, const std::vector<Segment>& segments) {
-  Table table("segment,points,saliency,isolation,roundness,d1_m,d2_m,d3_m,cx_m,cy_m,cz_m,radius_m");
+  CsvTable table("segment,points,saliency,isolation,roundness,d1_m,d2_m,d3_m,cx_m,cy_m,cz_m,radius_m");
   for (const Segment& s : segments)
     table.cell(s.label)
         .cell(s.points)
@@ -240,7 +195,7 @@ void writeSegments(const std::string& path, const std::vector<Segment>& segments
 }
 
 void writePlan(const std::string& path, const std::vector<PlanRow>& rows) {
-  Table table("id,x_m,y_m,z_m,qx,qy,qz,qw,group,segment,saliency,gain,reachability,chosen");
+  CsvTable table("id,x_m,y_m,z_m,qx,qy,qz,qw,group,segment,saliency,gain,reachability,chosen");
   for (const PlanRow& row : rows) {
     table.cell(row.view.id).pose(row.view.T_world_camera);
     row.view.group ? table.cell(*row.view.group) : table.cell(std::string_view());
@@ -255,7 +210,7 @@ void writePlan(const std::string& path, const std::vector<PlanRow>& rows) {
 }
 
 void writeUtilities(const std::string& path, const UtilitySearch& search) {
-  Table table(
+  CsvTable table(
       "id,x_m,y_m,z_m,qx,qy,qz,qw,reject,unknown,occupied,surface,distance,utility,rays,visited,reachability,"
       "chosen");
   const ViewUtility* chosen = chosenUtility(search);

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "io/csv_table.h"
 #include "tests/io/data_support.h"
 
 namespace vantage {
@@ -22,6 +23,14 @@ class TableFile : public FolderTest {
     return errorOf([&] { readViews(path("v.csv")); });
   }
 };
+
+TEST(CsvTable, QuotesWordsThatWouldBreakARow) {
+  CsvTable table("word,number,maybe,none");
+  table.cell("a,b").cell(0.1).cell(std::optional(7u)).cell(std::optional<double>()).endRow();
+  table.cell("say \"yes\"").cell(1.0f / 3.0f).cell(-3).cell("plain").endRow();
+  EXPECT_EQ(table.text(),
+            "word,number,maybe,none\n\"a,b\",0.1,7,\n\"say \"\"yes\"\"\",0.33333334,-3,plain\n");
+}
 
 const std::string kHeader = "id,x_m,y_m,z_m,qx,qy,qz,qw\n";
 
