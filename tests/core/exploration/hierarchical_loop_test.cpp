@@ -1,72 +1,36 @@
 // The loop of the hierarchical planner (Algorithm 1, Vasquez-Gomez et al. 2013) in the embedded scene `room`.
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "core/exploration/explorer.h"
-#include "hardware/simulated_depth_camera.h"
-#include "hardware/simulated_robot.h"
-#include "io/config_file.h"
-#include "io/scene_file.h"
-#include "io/scene_truth.h"
+#include "io/error.h"
+#include "tests/support/simulated_run.h"
 
 namespace vantage {
 namespace {
 
-struct LoopRun {
-  std::vector<StepRecord> steps;
-  StepRecord closing;
-  std::string stop_reason;
-};
+using testing::RunObserver;
+using testing::SimulatedRun;
 
 /// Two centimetres instead of one: an iteration takes some milliseconds.
 Settings coarseRoom(const std::string& planner, int steps) {
-  const SceneFile scene = loadScene("room");
-  Settings settings;
-  applyToml(settings, scene.text, "room", sceneGeometryKeys());
-  for (const char* assignment :
-       {"octree.voxel_size_m=0.02", "scan.initial_frames=1", "scan.initial_arc_m=0", "scan.frames=1",
-        "scan.tilt_deg=0", "camera.noise_at_1m_m=0", "camera.emitter_shadow=false",
-        "utility.min_occupied=100", "utility.stop_gain=25", "volume.voxel_size_m=0.02",
-        "volume.size=[181,181,101]", "fusion.truncation_m=0.06", "segmentation.voxel_m=0.03",
-        "segmentation.seed_m=0.08", "contours.group_distance_m=0.08"})
-    applyAssignment(settings, assignment);
-  applyAssignment(settings, "exploration.planner=" + planner);
-  settings.exploration.steps = steps;
-  settings.validate();
-  return settings;
+  return testing::sceneSettings(
+      "room", {"octree.voxel_size_m=0.02", "scan.initial_frames=1", "scan.initial_arc_m=0", "scan.frames=1",
+               "scan.tilt_deg=0", "camera.noise_at_1m_m=0", "camera.emitter_shadow=false",
+               "utility.min_occupied=100", "utility.stop_gain=25", "volume.voxel_size_m=0.02",
+               "volume.size=[181,181,101]", "fusion.truncation_m=0.06", "segmentation.voxel_m=0.03",
+               "segmentation.seed_m=0.08", "contours.group_distance_m=0.08", "exploration.planner=" + planner,
+               "exploration.steps=" + std::to_string(steps)});
 }
 
-/// \param evaluated is called with every record after its evaluation, and the maps at that time
-LoopRun explore(const Settings& settings, int threads = 2,
-                const std::function<void(const StepRecord&, const WorldModel&)>& evaluated = {}) {
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-  const SceneFile scene = loadScene("room");
-  SimulatedDepthCamera camera(scene, {settings.camera, settings.sensor, settings.exploration.seed});
-  FreeFlyer robot(settings.free_flyer, initialScanPoses(settings.exploration.scan).back());
-  const SceneTruth truth(scene);
-  Explorer explorer(settings.exploration, camera, robot, &truth);
-  LoopRun run;
-  explorer.addObserver([&](const std::shared_ptr<const StepRecord>& record) {
-    if (evaluated && record->stage == Stage::Evaluation) evaluated(*record, explorer.world());
-    if (record->closing) {
-      if (record->stage == Stage::Done) run.closing = *record;
-    } else if (record->stage == Stage::Done) {
-      run.steps.push_back(*record);
-    } else if (record->stage == Stage::Realised) {
-      run.steps.back() = *record;
-    }
-  });
-  run.stop_reason = explorer.run({}).stop_reason;
-  return run;
+SimulatedRun explore(const Settings& settings, int threads = 2, const RunObserver& observer = {}) {
+  return testing::exploreScene("room", settings, threads, observer);
 }
 
 TEST(HierarchicalLoop, UnknownSpaceInTheBoxFallsOverTwoStepsUntilNothingIsLeftToGain) {
-  const LoopRun run = explore(coarseRoom("hierarchical", 20));
+  const SimulatedRun run = explore(coarseRoom("hierarchical", 20));
   EXPECT_EQ(run.stop_reason, "finished");
   ASSERT_GE(run.steps.size(), 3u);
   for (std::size_t n = 0; n + 1 < run.steps.size(); ++n) {
@@ -96,6 +60,7 @@ TEST(HierarchicalLoop, WithoutCoarseLevelsEveryViewIsThatOfUniformRayTracing) {
   const RayTree tree(config.hierarchical.sensor, config.octree.voxel_size_m, 0);
   int compared = 0;
   explore(settings, 2, [&](const StepRecord& record, const WorldModel& world) {
+    if (record.stage != Stage::Evaluation) return;
     const HierarchicalQuery query = queryOf(config.objectBox(), config.hierarchical);
     for (const ViewUtility& view : record.utilities->views) {
       if (view.rays.rays_cast == 0) continue;  // dropped before its rays
@@ -110,7 +75,7 @@ TEST(HierarchicalLoop, WithoutCoarseLevelsEveryViewIsThatOfUniformRayTracing) {
 TEST(HierarchicalLoop, WithoutCoarseLevelsChoosesTheViewsOfTheUniformPlanner) {
   Settings flat = coarseRoom("hierarchical", 4);
   flat.exploration.hierarchical.coarse_levels = 0;
-  const LoopRun hierarchical = explore(flat), uniform = explore(coarseRoom("uniform", 4));
+  const SimulatedRun hierarchical = explore(flat), uniform = explore(coarseRoom("uniform", 4));
   ASSERT_EQ(hierarchical.steps.size(), uniform.steps.size());
   ASSERT_GE(uniform.steps.size(), 3u);
   for (std::size_t n = 0; n < uniform.steps.size(); ++n) {
@@ -127,8 +92,8 @@ TEST(HierarchicalLoop, WithoutCoarseLevelsChoosesTheViewsOfTheUniformPlanner) {
 }
 
 TEST(HierarchicalLoop, IsTheSameForAnyNumberOfThreads) {
-  const LoopRun one = explore(coarseRoom("hierarchical", 3), 1),
-                two = explore(coarseRoom("hierarchical", 3), 2);
+  const SimulatedRun one = explore(coarseRoom("hierarchical", 3), 1),
+                     two = explore(coarseRoom("hierarchical", 3), 2);
   ASSERT_EQ(one.steps.size(), two.steps.size());
   ASSERT_EQ(one.steps.size(), 3u);
   for (std::size_t n = 0; n < one.steps.size(); ++n) {
@@ -141,7 +106,7 @@ TEST(HierarchicalLoop, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(HierarchicalLoop, ARunCanSwitchPlanners) {
-  const LoopRun run = explore(coarseRoom("hierarchical,uniform,contour", 3));
+  const SimulatedRun run = explore(coarseRoom("hierarchical,uniform,contour", 3));
   ASSERT_EQ(run.steps.size(), 3u) << run.stop_reason;
   const std::vector<std::string> planners = {"hierarchical", "uniform", "contour"};
   for (std::size_t n = 0; n < 3; ++n) {
@@ -157,7 +122,7 @@ TEST(HierarchicalLoop, ARunCanSwitchPlanners) {
 }
 
 TEST(HierarchicalLoop, MapsThatNoPlannerNeedsAreNotKept) {
-  const LoopRun a = explore(coarseRoom("hierarchical", 1)), b = explore(coarseRoom("contour", 1));
+  const SimulatedRun a = explore(coarseRoom("hierarchical", 1)), b = explore(coarseRoom("contour", 1));
   ASSERT_EQ(a.steps.size(), 1u);
   ASSERT_EQ(b.steps.size(), 1u);
   EXPECT_TRUE(!a.steps[0].changed_bricks && a.steps[0].changed_octree_bricks);
@@ -170,7 +135,7 @@ TEST(HierarchicalLoop, ABoxOfFreeSpaceEndsItAtTheFirstEvaluation) {
   settings.exploration.octree.object_box =
       Box(Eigen::Vector3d(-0.1, -0.1, 1.2), Eigen::Vector3d(0.1, 0.1, 1.3));
   settings.exploration.scan.scene_center_m = Eigen::Vector3d(0, 0, 1.25);
-  const LoopRun run = explore(settings);
+  const SimulatedRun run = explore(settings);
   EXPECT_EQ(run.stop_reason, "finished");
   ASSERT_EQ(run.steps.size(), 1u);
   EXPECT_EQ(run.steps[0].box->unknown, 0u);

@@ -6,13 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/exploration/explorer.h"
-#include "hardware/simulated_depth_camera.h"
-#include "hardware/simulated_robot.h"
-#include "io/config_file.h"
-#include "io/scene_file.h"
-#include "io/scene_truth.h"
 #include "tests/support/octree_caster.h"
+#include "tests/support/simulated_run.h"
 
 namespace vantage {
 namespace {
@@ -30,7 +25,7 @@ struct Progress {
   int compared_views = 0;
 };
 
-void compare(const StepRecord& record, const Explorer& explorer, const ExplorationConfig& config,
+void compare(const StepRecord& record, const WorldModel& world, const ExplorationConfig& config,
              const Check& check, Progress& progress) {
   const RayTree tree(config.hierarchical.sensor, config.octree.voxel_size_m,
                      config.hierarchical.coarse_levels);
@@ -42,7 +37,7 @@ void compare(const StepRecord& record, const Explorer& explorer, const Explorati
   std::size_t cast = 0;
   for (const ViewUtility& view : record.utilities->views)
     if (view.rays.rays_cast > 0 && cast++ % check.every == 0) views.push_back(&view);
-  const testing::OctreeCaster reference(*explorer.world().octree());
+  const testing::OctreeCaster reference(*world.octree());
   std::vector<RayCounts> expected(views.size());
   tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t n) {
     expected[n] = reference.cast(tree, levels, views[n]->T_world_camera, query);
@@ -54,25 +49,15 @@ void compare(const StepRecord& record, const Explorer& explorer, const Explorati
   progress.compared_views += static_cast<int>(views.size());
 }
 
-void reconstruct(const char* name, const Check& check, Progress& progress) {
-  const SceneFile scene = loadScene(name);
-  Settings settings;
-  applyToml(settings, scene.text, name, sceneGeometryKeys());
-  applyAssignment(settings, "exploration.planner=" + check.planner);
-  applyAssignment(settings, "rays.coarse_levels=" + std::to_string(check.coarse_levels));
-  applyAssignment(settings, std::string("rays.child_start=") + check.child_start);
-  settings.exploration.steps = 11;
-  settings.validate();
-  SimulatedDepthCamera camera(scene, {settings.camera, settings.sensor, settings.exploration.seed});
-  FreeFlyer robot(settings.free_flyer, initialScanPoses(settings.exploration.scan).back());
-  const SceneTruth truth(scene);
-  Explorer explorer(settings.exploration, camera, robot,
-                    settings.exploration.octree.known_scene ? &truth : nullptr);
-  explorer.addObserver([&](const std::shared_ptr<const StepRecord>& record) {
-    if (record->stage != Stage::Evaluation) return;
-    if (record->step % 10 == 1) compare(*record, explorer, settings.exploration, check, progress);
+void reconstruct(const char* scene, const Check& check, Progress& progress) {
+  const Settings settings = testing::sceneSettings(
+      scene,
+      {"exploration.planner=" + check.planner, "rays.coarse_levels=" + std::to_string(check.coarse_levels),
+       std::string("rays.child_start=") + check.child_start, "exploration.steps=11"});
+  testing::exploreScene(scene, settings, 2, [&](const StepRecord& record, const WorldModel& world) {
+    if (record.stage == Stage::Evaluation && record.step % 10 == 1)
+      compare(record, world, settings.exploration, check, progress);
   });
-  explorer.run({});
 }
 
 TEST(LiveOctree, GivesTheCountsOfEveryViewOfEveryTenthIteration) {

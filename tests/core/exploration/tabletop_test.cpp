@@ -1,65 +1,34 @@
 // The acceptance of the whole loop on the embedded scene `tabletop`: initial scan, five next best views,
 // closing scan.
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <map>
 #include <set>
 
-#include "core/exploration/explorer.h"
-#include "hardware/simulated_depth_camera.h"
-#include "hardware/simulated_robot.h"
-#include "io/config_file.h"
-#include "io/scene_file.h"
-#include "io/scene_truth.h"
+#include "tests/support/simulated_run.h"
 
 namespace vantage {
 namespace {
 
+using testing::exploreScene;
+using testing::SimulatedRun;
+
 /// Farthest distance of a mesh vertex from the object it shows, metres: noise and half a voxel.
 constexpr double kOnSurface_m = 0.012;
 
-struct TabletopRun {
-  std::vector<StepRecord> steps;
-  StepRecord closing;
-  std::unique_ptr<SceneTruth> truth;
-  std::string stop_reason;
-};
-
-TabletopRun explore(int threads) {
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-  const SceneFile scene = loadScene("tabletop");
-  Settings settings;
-  applyToml(settings, scene.text, "tabletop", sceneGeometryKeys());
-  TabletopRun run;
-  run.truth = std::make_unique<SceneTruth>(scene);
-  SimulatedDepthCamera camera(scene, {settings.camera, settings.sensor, settings.exploration.seed});
-  FreeFlyer robot(settings.free_flyer, initialScanPoses(settings.exploration.scan).back());
-  Explorer explorer(settings.exploration, camera, robot, run.truth.get());
-  explorer.addObserver([&](const std::shared_ptr<const StepRecord>& record) {
-    if (record->closing) {
-      if (record->stage == Stage::Done) run.closing = *record;
-    } else if (record->stage == Stage::Done) {
-      run.steps.push_back(*record);
-    } else if (record->stage == Stage::Realised) {
-      run.steps.back() = *record;
-    }
-  });
-  run.stop_reason = explorer.run({}).stop_reason;
-  return run;
-}
-
 /// One run serves all tests of its thread count.
-const TabletopRun& tabletop(int threads = 2) {
-  static std::map<int, TabletopRun> runs;
+const SimulatedRun& tabletop(int threads = 2) {
+  static std::map<int, SimulatedRun> runs;
   auto found = runs.find(threads);
-  if (found == runs.end()) found = runs.emplace(threads, explore(threads)).first;
+  if (found == runs.end())
+    found =
+        runs.emplace(threads, exploreScene("tabletop", testing::sceneSettings("tabletop"), threads)).first;
   return found->second;
 }
 
 /// True object of each point of the surface cloud, -1 = none (table, panel).
-std::vector<int> trueObjects(const TabletopRun& run, const StepRecord& step) {
+std::vector<int> trueObjects(const SimulatedRun& run, const StepRecord& step) {
   std::vector<int> objects;
   for (const Eigen::Vector3f& p : step.surface->points)
     objects.push_back(run.truth->objectAt(p.cast<double>(), kOnSurface_m));
@@ -80,7 +49,7 @@ std::vector<int> segmentObjects(const StepRecord& step, const std::vector<int>& 
 }
 
 TEST(Tabletop, RunsFiveViewsAndAClosingScan) {
-  const TabletopRun& run = tabletop();
+  const SimulatedRun& run = tabletop();
   EXPECT_EQ(run.stop_reason, "steps done");
   ASSERT_EQ(run.steps.size(), 5u);
   EXPECT_TRUE(run.closing.closing);
@@ -93,7 +62,7 @@ TEST(Tabletop, RunsFiveViewsAndAClosingScan) {
 }
 
 TEST(Tabletop, EveryObjectHasASegmentThatOutranksTableAndPanelAfterTheInitialScan) {
-  const TabletopRun& run = tabletop();
+  const SimulatedRun& run = tabletop();
   const StepRecord& first = run.steps.at(0);
   const std::vector<int> objects = trueObjects(run, first);
   const std::vector<int> owner = segmentObjects(first, objects);
@@ -117,7 +86,7 @@ TEST(Tabletop, EveryObjectHasASegmentThatOutranksTableAndPanelAfterTheInitialSca
 }
 
 TEST(Tabletop, ObjectSegmentsWithMoreThanFiveContourPointsOutrankTableAndPanel) {
-  const TabletopRun& run = tabletop();
+  const SimulatedRun& run = tabletop();
   const StepRecord& first = run.steps.at(0);
   const std::vector<int> owner = segmentObjects(first, trueObjects(run, first));
   double background = 0.0;
@@ -143,7 +112,7 @@ TEST(Tabletop, ObjectSegmentsWithMoreThanFiveContourPointsOutrankTableAndPanel) 
 }
 
 TEST(Tabletop, AtLeast95PercentOfTheObjectPointsLieInObjectSegments) {
-  const TabletopRun& run = tabletop();
+  const SimulatedRun& run = tabletop();
   const StepRecord& first = run.steps.at(0);
   const std::vector<int> objects = trueObjects(run, first);
   const std::vector<int> owner = segmentObjects(first, objects);
@@ -181,7 +150,7 @@ TEST(Tabletop, AtLeastFourViewsRealise30PercentOfTheirPredictedGain) {
 }
 
 TEST(Tabletop, UnknownNearTheObjectsFallsBy80Percent) {
-  const TabletopRun& run = tabletop();
+  const SimulatedRun& run = tabletop();
   const auto before = run.steps.at(0).metrics.unknown_near_objects.value();
   const auto after = run.closing.metrics.unknown_near_objects.value();
   ASSERT_GT(before, 1000u);
@@ -189,7 +158,7 @@ TEST(Tabletop, UnknownNearTheObjectsFallsBy80Percent) {
 }
 
 TEST(Tabletop, CoverageNeverFallsByMuchAndEndsAbove80Percent) {
-  const TabletopRun& run = tabletop();
+  const SimulatedRun& run = tabletop();
   double last = 0.0;
   for (const StepRecord& step : run.steps) {
     EXPECT_GE(step.metrics.coverage.value(), last - 0.01);
@@ -199,7 +168,7 @@ TEST(Tabletop, CoverageNeverFallsByMuchAndEndsAbove80Percent) {
 }
 
 TEST(Tabletop, OneThreadAndTwoThreadsGiveTheSameRun) {
-  const TabletopRun &one = tabletop(1), &two = tabletop(2);
+  const SimulatedRun &one = tabletop(1), &two = tabletop(2);
   ASSERT_EQ(one.steps.size(), two.steps.size());
   for (std::size_t n = 0; n < one.steps.size(); ++n) {
     const StepRecord &a = one.steps[n], &b = two.steps[n];

@@ -24,19 +24,9 @@ namespace {
 
 using testing::randomGrid;
 using testing::randomPose;
+using testing::randomSensor;
 
 constexpr double kVoxel = 0.01;
-
-RaySensor randomSensor(std::mt19937_64& random) {
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  RaySensor sensor;
-  sensor.horizontal_fov_rad = 0.5 + unit(random);
-  sensor.vertical_fov_rad = 0.4 + unit(random);
-  sensor.min_range_m = random() % 3 ? 0.2 * unit(random) : 0.0;
-  sensor.max_range_m = 0.4 + 0.5 * unit(random);
-  sensor.anchor = random() % 4 ? RayAnchor::Centered : RayAnchor::Literal;
-  return sensor;
-}
 
 /// Queries that use every field, in both modes.
 std::vector<HierarchicalQuery> queries(const Box& grid) {
@@ -84,7 +74,7 @@ TEST(HierarchicalCaster, EveryPathAgreesWithThePlainRecursionOnRandomMaps) {
     if (n % 8 == 0 && grid.geometry().contains(own)) grid.set(own, VoxelState::Unknown);
     grid.rebuildFreeRadius();
     const StatePyramid pyramid(std::move(grid), first - Eigen::Vector3i::Constant(20), 4);
-    const RaySensor sensor = randomSensor(random);
+    const RaySensor sensor = randomSensor(random, 0.4);
     const RayTree tree(sensor, kVoxel, std::min(4, maxCoarseLevels(sensor, kVoxel)));
     for (const HierarchicalQuery& query : queries(pyramid.finest().geometry().bounds()))
       for (int m = 0; m <= tree.coarseLevels(); ++m) {
@@ -142,7 +132,7 @@ TEST(HierarchicalCaster, NoCoarseLevelsAreUniformRayTracing) {
   std::uint64_t hits = 0;
   for (int n = 0; n < 30; ++n) {
     const StatePyramid pyramid(crowdedGrid(random, {60, 50, 55}), Eigen::Vector3i::Zero(), 2);
-    const RaySensor sensor = randomSensor(random);
+    const RaySensor sensor = randomSensor(random, 0.4);
     const RayTree tree(sensor, kVoxel, 0);
     const Box bounds = pyramid.finest().geometry().bounds();
     const Pose pose = randomPose(random, bounds);
@@ -163,7 +153,7 @@ TEST(HierarchicalCaster, RestartNeverSeesMoreOccupiedRaysThanUniform) {
   std::uint64_t total = 0;
   for (int n = 0; n < 40; ++n) {
     const StatePyramid pyramid(crowdedGrid(random, {60, 50, 55}), Eigen::Vector3i::Zero(), 3);
-    const RaySensor sensor = randomSensor(random);
+    const RaySensor sensor = randomSensor(random, 0.4);
     const RayTree tree(sensor, kVoxel, std::min(3, maxCoarseLevels(sensor, kVoxel)));
     const Pose pose = randomPose(random, pyramid.finest().geometry().bounds());
     HierarchicalQuery query;

@@ -12,6 +12,7 @@ namespace {
 
 using testing::OctreeCaster;
 using testing::randomPose;
+using testing::randomSensor;
 
 constexpr double kVoxel = 0.02;
 
@@ -42,17 +43,6 @@ OccupancyOctree randomMap(std::mt19937_64& random, InnerRule inner) {
   return map;
 }
 
-RaySensor randomSensor(std::mt19937_64& random) {
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  RaySensor sensor;
-  sensor.horizontal_fov_rad = 0.5 + unit(random);
-  sensor.vertical_fov_rad = 0.4 + unit(random);
-  sensor.min_range_m = random() % 2 ? 0.15 * unit(random) : 0.0;
-  sensor.max_range_m = 0.5 + 0.5 * unit(random);
-  sensor.anchor = random() % 4 ? RayAnchor::Centered : RayAnchor::Literal;
-  return sensor;
-}
-
 HierarchicalQuery randomQuery(std::mt19937_64& random, const OccupancyOctree& map) {
   HierarchicalQuery query;
   if (random() % 4) query.bounds = map.objectBox();
@@ -72,7 +62,7 @@ TEST_P(OctreeReference, AgreesWithCastsOverThePyramidOnRandomMaps) {
   for (int n = 0; n < 40; ++n) {
     SCOPED_TRACE(n);
     const OccupancyOctree map = randomMap(random, GetParam());
-    const RaySensor sensor = randomSensor(random);
+    const RaySensor sensor = randomSensor(random, 0.5);
     const RayTree tree(sensor, kVoxel, std::min(3, maxCoarseLevels(sensor, kVoxel)));
     const StatePyramid pyramid(map, tree.coarseLevels());
     const OctreeCaster reference(map);

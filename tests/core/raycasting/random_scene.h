@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <random>
 
+#include "core/raycasting/ray_tree.h"
 #include "core/raycasting/uniform_caster.h"
 #include "core/volume/state_grid.h"
 
@@ -41,6 +42,18 @@ inline Pose randomPose(std::mt19937_64& random, const Box& around) {
   const Eigen::Vector3d target = around.center() + vector().cwiseProduct(around.sizes() * 0.4);
   const bool anywhere = random() % 3 == 0;
   return lookAlong(eye, anywhere ? vector() : target - eye, 3.0 * unit(random));
+}
+
+/// Apertures from 23 deg on, with and without a minimum range, either anchor. \param shortest_m maximum range
+inline RaySensor randomSensor(std::mt19937_64& random, double shortest_m) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  RaySensor sensor;
+  sensor.horizontal_fov_rad = 0.5 + unit(random);
+  sensor.vertical_fov_rad = 0.4 + unit(random);
+  sensor.min_range_m = random() % 3 ? 0.2 * unit(random) : 0.0;
+  sensor.max_range_m = shortest_m + 0.5 * unit(random);
+  sensor.anchor = random() % 4 ? RayAnchor::Centered : RayAnchor::Literal;
+  return sensor;
 }
 
 }  // namespace vantage::testing
