@@ -84,10 +84,10 @@ TEST(Reproduce, KeepsItsPlannerWhateverIsSet) {
 TEST(Reproduce, AnInterruptionKeepsWhatIsFinished) {
   const TemporaryFolder folder;
   ProcessOptions interrupted;
-  interrupted.interrupt_after_s = 20;  // some of the forty runs, not all
+  interrupted.interrupt_after_s = 10;  // some of the forty runs, not all
   std::vector<std::string> words = {"reproduce", "all", "-o", folder / "out", "--json", folder / "out.json"};
   words.insert(words.end(), kTiny.begin(), kTiny.end());
-  words.insert(words.end(), {"--set", "octree.voxel_size_m=0.02", "--set", "exploration.steps=20"});
+  words.insert(words.end(), {"--set", "octree.voxel_size_m=0.03", "--set", "exploration.steps=12"});
   const ProcessResult result = vantage(words, interrupted);
   expectRefused(result, {"out: interrupted", "not run: A1 ", "A2 (0 of 3 runs finished)", "A3 room, seed 1"},
                 1);

@@ -96,9 +96,13 @@ void judge(const std::vector<ObjectRuns>& sets, const Wanted& wanted, const Crit
     else
       open += (open.empty() ? "" : ", ") + c.where + ": " + criterion.text(c.value);
 
-  Claim claim{"A1 " + criterion.number, criterion.claim,
-              criterion.paper,          "nothing was measured",
-              Verdict::NotRun,          fmt::format("worst of {} runs, {}", graded, criterion.runs)};
+  Claim claim{"A1 " + criterion.number,
+              criterion.claim,
+              criterion.paper,
+              "nothing was measured",
+              Verdict::NotRun,
+              graded > 0 ? fmt::format("worst of {} runs, {}", graded, criterion.runs)
+                         : "no run can be graded, " + criterion.runs};
   if (const Comparison* worst = decisive(all, criterion.limit)) {
     const std::optional<bool> met = worst->meets(criterion.limit);
     claim.ours = boundedText(*worst, criterion) + " (" + worst->where + ")";

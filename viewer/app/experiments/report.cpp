@@ -98,8 +98,11 @@ void Report::markInterruption() {
     if (claim.verdict == Verdict::Pass) claim.verdict = Verdict::NotComparable;
     claim.remark += "; interrupted: of the finished runs alone";
   }
-  for (const std::string& part : not_run)
-    claims.push_back({part, "-", "-", "-", Verdict::NotRun, "interrupted"});
+  for (const std::string& part : not_run) {  // the experiment's name comes first
+    const std::size_t blank = part.find(' ');
+    claims.push_back({part.substr(0, blank), blank == std::string::npos ? "-" : part.substr(blank + 1), "-",
+                      "-", Verdict::NotRun, "interrupted"});
+  }
 }
 
 std::string tableText(const Table& table) {
