@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "core/exploration/map_metrics.h"
 #include "core/exploration/plan_view.h"
+#include "core/exploration/run_meter.h"
 #include "core/exploration/stopwatch.h"
 
 namespace vantage {
@@ -33,7 +33,7 @@ struct Explorer::State {
         truth(truth_),
         object_box(config.objectBox()),
         world(config.world()),
-        metrics(mainStates().geometry(), config.workspace, truth_) {
+        meter(config, world, truth_) {
     if (config.needsOctree()) prepareOctree();
   }
 
@@ -54,7 +54,7 @@ struct Explorer::State {
   const GroundTruth* truth;
   Box object_box;
   WorldModel world;
-  MapMetricsCounter metrics;
+  RunMeter meter;
   RayTree tree;
   std::vector<StepObserver> observers;
   Exclusions exclusions;
@@ -66,13 +66,6 @@ struct Explorer::State {
     for (const StepObserver& observer : observers) observer(snapshot);
   }
 
-  /// States of the map that the metrics are about.
-  const StateGrid& mainStates() const {
-    return world.volume() ? *world.surfaceStates() : world.pyramid()->finest();
-  }
-  const StateGrid& statesFor(PlannerKind kind) const {
-    return usesOctree(kind) ? world.pyramid()->finest() : *world.surfaceStates();
-  }
   bool isReplay() const { return !camera.recordedPoses().empty(); }
   std::vector<Pose> startPoses() const;
   bool scanInto(StepRecord& record, const std::vector<Pose>& poses, const SensorBubble& bubble,
@@ -88,11 +81,7 @@ struct Explorer::State {
                         const std::function<void(Stage)>& publish_stage, const RunControl& control);
   void move(StepRecord& record);
   void close(StepRecord& record);
-  void measureMap(StepRecord& record) const;
-  void measureCoverage(StepRecord& record) const;
-  void markTowardObject(StepRecord& record) const;
   void realise(StepRecord& previous, const StepRecord& scanned, std::uint64_t unknown_before);
-  std::uint64_t unknownInRegion(const StepRecord& record) const;
 };
 
 std::vector<Pose> Explorer::State::startPoses() const {
@@ -133,7 +122,7 @@ bool Explorer::State::scanInto(StepRecord& record, const std::vector<Pose>& pose
   record.timings.fuse = fuse_s + updating.seconds();
   record.changed_bricks = changes.volume;
   record.changed_octree_bricks = changes.octree;
-  measureMap(record);
+  meter.measureMap(record);
   publish(record, Stage::Fuse);
   return true;
 }
@@ -162,21 +151,21 @@ ReachPose Explorer::State::reachIn(const StepRecord& record, MotionPlan& reporte
 void Explorer::State::plan(StepRecord& record, const RunControl& control) {
   const PlannerKind kind = config.plannerOf(record.step);
   const Stopwatch mapping;
-  robot.observe(statesFor(kind));
+  robot.observe(world.statesOf(kind));
   record.timings.collision_map = mapping.seconds();
 
   MotionPlan reported;  // where the verdict is only reported: of the last pose asked for, i.e. the chosen one
   const auto publish_stage = [&](Stage stage) {
-    if (stage == Stage::Surface) measureCoverage(record);
+    if (stage == Stage::Surface) meter.measureCoverage(record);
     if (stage == Stage::Evaluation) {
       if (!config.enforce_reachability) reportMotion(record, reported);
-      markTowardObject(record);
+      meter.markTowardObject(record);
     }
     publish(record, stage);
   };
   const ReachPose reach = reachIn(record, reported);
   if (usesOctree(kind)) {
-    measureCoverage(record);
+    meter.measureCoverage(record);
     planHierarchical(record, reach, publish_stage, control);
   } else {
     planContour(record, reach, publish_stage, control);
@@ -219,47 +208,11 @@ void Explorer::State::planHierarchical(StepRecord& record, const ReachPose& reac
   planUtility(record, input, reach, publish_stage, control);
 }
 
-void Explorer::State::measureMap(StepRecord& record) const {
-  record.metrics = metrics.count(mainStates());
-  if (!world.pyramid()) return;
-  const StateGrid& states = world.pyramid()->finest();
-  record.box = share(BoxMetrics{states.count(VoxelState::Unknown, object_box),
-                                states.count(VoxelState::Occupied, object_box)});
-}
-
-/// By the fused surface, or by occupied voxels where the octree is the only map (evaluation.md, section 2).
-void Explorer::State::measureCoverage(StepRecord& record) const {
-  if (!truth) return;
-  const auto covered = [&](const std::vector<Eigen::Vector3f>& points, double distance_m) {
-    record.metrics.coverage = surfaceCoverage(truth->observableSurface(), points, distance_m);
-  };
-  if (record.surface) return covered(record.surface->points, kCoverageDistance_m);
-  if (world.volume())
-    return covered(extractSurface(*world.volume(), config.contour.contours.weight_threshold).points,
-                   kCoverageDistance_m);
-  covered(occupiedCenters(world.pyramid()->finest(), object_box), config.octree.voxel_size_m);
-}
-
-/// evaluation.md, section 2.
-void Explorer::State::markTowardObject(StepRecord& record) const {
-  if (!truth || !record.search || !record.search->chosen) return;
-  const ContourPoint& point = record.contours->points[record.search->chosen->contour_point];
-  record.toward_object = truth->objectDistance(point.position_m) <= kObjectMargin_m;
-}
-
-std::uint64_t Explorer::State::unknownInRegion(const StepRecord& record) const {
-  const PlannerKind kind = config.plannerOf(record.step);
-  const StateGrid& states = statesFor(kind);
-  if (usesOctree(kind)) return states.count(VoxelState::Unknown, object_box);
-  if (kind == PlannerKind::Standard) return states.count(VoxelState::Unknown, config.workspace);
-  return countUnknown(states, record.search->segments[record.search->chosen->search].sphere);
-}
-
 /// Realised gain: the drop of the unknown in the region (evaluation.md, section 2). A voxel of the TSDF once
 /// seen stays seen; the octree may forget some again (a hit and two misses), then it is what is left of the
 /// gain.
 void Explorer::State::realise(StepRecord& previous, const StepRecord& scanned, std::uint64_t unknown_before) {
-  previous.realised_voxels = unknown_before - std::min(unknown_before, unknownInRegion(previous));
+  previous.realised_voxels = unknown_before - std::min(unknown_before, meter.unknownInRegion(previous));
   if (isReplay()) previous.served = scanned.scan.back();
   exclusions.add(previous, config.contour.gain);
   publish(previous, Stage::Realised);
@@ -289,7 +242,7 @@ std::vector<Pose> Explorer::State::scanPoses(const std::optional<StepRecord>& pr
 /// Scan and fuse, and look back at what the last view gained. False if the camera had no frame left.
 bool Explorer::State::observe(StepRecord& record, std::optional<StepRecord>& previous,
                               const RunControl& control) {
-  const std::uint64_t unknown_before = previous ? unknownInRegion(*previous) : 0;
+  const std::uint64_t unknown_before = previous ? meter.unknownInRegion(*previous) : 0;
   // The sensor has been here: its own neighbourhood is empty, all along the way of the initial scan. The
   // hierarchical planner flies through what its octree takes for free; the TSDF has to learn that from the
   // sensor itself, or nobody could plan a way back in it.
@@ -316,7 +269,7 @@ void Explorer::State::move(StepRecord& record) {
 void Explorer::State::close(StepRecord& record) {
   if (world.volume())
     record.surface = share(extractSurface(*world.volume(), config.contour.contours.weight_threshold));
-  measureCoverage(record);
+  meter.measureCoverage(record);
   publish(record, Stage::Done);
 }
 

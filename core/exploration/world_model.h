@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/exploration/planner_kind.h"
 #include "core/exploration/step_record.h"
 #include "core/volume/occupancy_octree.h"
 #include "core/volume/state_pyramid.h"
@@ -71,6 +72,8 @@ class WorldModel {
   const StateGrid* surfaceStates() const { return volume_ ? &states_ : nullptr; }
   const OccupancyOctree* octree() const { return octree_ ? &*octree_ : nullptr; }
   const StatePyramid* pyramid() const { return octree_ ? &pyramid_ : nullptr; }
+  /// Of the map that a planner works on. \pre it is kept
+  const StateGrid& statesOf(PlannerKind kind) const { return usesOctree(kind) ? pyramid_.finest() : states_; }
 
  private:
   WorldConfig config_;
