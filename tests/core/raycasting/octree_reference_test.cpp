@@ -59,7 +59,7 @@ TEST_P(OctreeReference, AgreesWithCastsOverThePyramidOnRandomMaps) {
   std::mt19937_64 random(41);
   RayCounts total;
   int refined = 0;
-  for (int n = 0; n < 40; ++n) {
+  for (int n = 0; n < 100; ++n) {
     SCOPED_TRACE(n);
     const OccupancyOctree map = randomMap(random, GetParam());
     const RaySensor sensor = randomSensor(random, 0.5);
