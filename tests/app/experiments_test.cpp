@@ -259,6 +259,7 @@ RunResult runWith(int coarse_levels, int scans, bool cut_off, double coverage) {
   run.coverage = coverage;
   IterationResult step;
   step.nbv_s = coarse_levels == 0 ? 1.0 : 0.05;
+  step.scored = 100;
   run.iterations.assign(static_cast<std::size_t>(scans - 1), step);
   return run;
 }
@@ -325,6 +326,13 @@ TEST(A1Criteria, NothingMeasuredIsNotRun) {
   }
   // Uniform ray tracing covers nothing, so nothing can be lost.
   EXPECT_EQ(claimOf(judged(runWith(0, 3, false, 0.0), runWith(2, 3, false, 0.0)), "A1 (3)").verdict,
+            Verdict::NotRun);
+  // Every candidate was dropped before its rays: the time of nothing.
+  uniform.iterations.resize(1, {.nbv_s = 1e-6});
+  hierarchical.iterations.resize(1, {.nbv_s = 1e-6});
+  EXPECT_EQ(claimOf(judged(uniform, hierarchical), "A1 (1)").verdict, Verdict::NotRun);
+  // Nothing but the first scan, which all share.
+  EXPECT_EQ(claimOf(judged(runWith(0, 1, false, 0.5), runWith(2, 1, false, 0.5)), "A1 (3)").verdict,
             Verdict::NotRun);
   ObjectRuns set{"thing", 0.2, {uniform, hierarchical}};
   const Table table = mainTable({set});
@@ -455,7 +463,7 @@ TEST(A3, AnInterruptionKeepsTheSeedsThatWereFinished) {
 RateSet rateSet(double candidates, std::vector<double> unknown, bool cut_off) {
   RateRun run;
   run.steps = {{.scan = 0.1, .update = 0.1, .evaluate = 0.5, .path = 0.0}};
-  run.candidates = candidates;
+  run.candidates = run.scored = candidates;
   run.unknown_per_scan = std::move(unknown);
   run.cut_off = cut_off;
   return {"room", {run, run}};
@@ -521,6 +529,9 @@ TEST(Defaults, AreThoseThatWereUsed) {
   EXPECT_EQ(defaultOf(defaultsUsed(settings, "A3", false), "around the object's box"),
             "free; free where a recorded camera has been");
   EXPECT_EQ(defaultOf(defaultsUsed(settings, "A3", true), "candidates"), "77 drawn in the workspace");
+  settings.exploration.recorded_candidates = true;
+  EXPECT_EQ(defaultOf(defaultsUsed(settings, "A3", false), "candidates"),
+            "77 drawn in the workspace, and the recorded poses that are left");
   settings.exploration.octree.outside = VoxelState::Unknown;
   settings.exploration.octree.known_scene = false;
   settings.exploration.hierarchical.min_overlap = 0.2;

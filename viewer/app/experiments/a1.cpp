@@ -54,8 +54,7 @@ std::vector<std::string> notes() {
       "sizes. Stand-ins: an open pot with a ball in it (compact), a winding body with legs and wings "
       "(elongated).",
       "A1: the table's top lies 1 mm below the border of the voxels from which the object's box begins, so "
-      "that hits on the table do not fall into the box by rounding. Table and walls are known from the "
-      "start.",
+      "that hits on the table do not fall into the box by rounding.",
       "A1: coverage counts surface that some feasible candidate sees; accuracy is the distance of occupied "
       "voxel centres in the box to the nearest true surface, the table's included.",
       "A1: in graded runs a view near one that was taken (utility.executed_*) is not offered again, to "

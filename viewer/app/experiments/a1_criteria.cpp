@@ -25,7 +25,7 @@ struct Worst {
   /// \param limit a share
   Verdict verdict(double limit) const { return value ? passIf(*value <= limit) : Verdict::NotRun; }
   std::string remark(const std::string& words) const {
-    return words + (unmeasured ? fmt::format("; {} runs gave nothing to compare", unmeasured) : "");
+    return words + (unmeasured ? fmt::format("; {} gave nothing to compare", runsText(unmeasured)) : "");
   }
 };
 
@@ -53,7 +53,7 @@ void judgeCost(const std::vector<ObjectRuns>& sets, Report& report) {
   const Worst time = worst(sets, usual, timeShare);
   report.claims.push_back({"A1 (1)", "NBV time per iteration, m >= 2, resume: at most 10 % of uniform",
                            "> 90 % less (dragon 4.2 %)", time.text(1), time.verdict(0.10),
-                           time.remark(fmt::format("largest of {} runs", time.measured))});
+                           time.remark("largest of " + runsText(time.measured))});
   const Worst cpu = worst(sets, usual, cpuShare);
   report.claims.push_back({"A1 CPU", "the same in CPU time of all threads", "-", cpu.text(1),
                            cpu.value ? Verdict::NotComparable : Verdict::NotRun,

@@ -101,7 +101,7 @@ void judge(const std::vector<ObjectRuns>& sets, const Wanted& wanted, const Crit
               criterion.paper,
               "nothing was measured",
               Verdict::NotRun,
-              graded > 0 ? fmt::format("worst of {} runs, {}", graded, criterion.runs)
+              graded > 0 ? "worst of " + runsText(graded) + ", " + criterion.runs
                          : "no run can be graded, " + criterion.runs};
   if (const Comparison* worst = decisive(all, criterion.limit)) {
     const std::optional<bool> met = worst->meets(criterion.limit);
@@ -109,7 +109,7 @@ void judge(const std::vector<ObjectRuns>& sets, const Wanted& wanted, const Crit
     claim.verdict = met ? passIf(*met) : Verdict::NotComparable;
   }
   if (!open.empty()) claim.remark += "; not comparable, cut off before they ended: " + open;
-  if (unmeasured > 0) claim.remark += fmt::format("; {} runs gave nothing to compare", unmeasured);
+  if (unmeasured > 0) claim.remark += fmt::format("; {} gave nothing to compare", runsText(unmeasured));
   report.claims.push_back(std::move(claim));
 }
 

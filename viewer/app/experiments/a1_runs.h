@@ -21,12 +21,14 @@ struct ObjectRuns {
 
 /// a / b; none unless both were measured and b is above 0.
 std::optional<double> ratio(std::optional<double> a, std::optional<double> b);
+/// "1 run", "2 runs".
+std::string runsText(int runs);
 /// A share in per cent.
 std::optional<double> percent(std::optional<double> share);
 
 // A run against uniform ray tracing of the same object. Each is empty where either side measured nothing.
 
-/// Mean NBV time by the clock and in CPU time, and visits per scored view.
+/// Mean NBV time by the clock and in CPU time, and visits per scored view. Empty if uniform cast no ray.
 std::optional<double> timeShare(const ObjectRuns& set, const RunResult& run);
 std::optional<double> cpuShare(const ObjectRuns& set, const RunResult& run);
 std::optional<double> visitShare(const ObjectRuns& set, const RunResult& run);
@@ -36,7 +38,7 @@ std::optional<double> finestShare(const RunResult& run);
 std::optional<double> hiddenTimeShare(const ObjectRuns& set, const RunResult& run);
 std::optional<double> hiddenVisitShare(const ObjectRuns& set, const RunResult& run);
 /// Coverage that the run ends with less than uniform, points; negative = more. Empty if uniform covers
-/// nothing.
+/// nothing or took no view after the first scan.
 std::optional<double> lostPoints(const ObjectRuns& set, const RunResult& run);
 /// Scans and total planning time. Empty if uniform took no view after the first scan.
 std::optional<double> viewShare(const ObjectRuns& set, const RunResult& run);

@@ -16,6 +16,11 @@ struct Totals {
   }
 };
 
+/// Some view was more than dropped before its rays; otherwise its time is that of nothing.
+bool castRays(const RunResult& run) {
+  return Totals(run).scored > 0;
+}
+
 }  // namespace
 
 std::string ObjectRuns::title() const {
@@ -26,17 +31,21 @@ std::optional<double> ratio(std::optional<double> a, std::optional<double> b) {
   return a && b && *b > 0.0 ? std::optional(*a / *b) : std::nullopt;
 }
 
+std::string runsText(int runs) {
+  return fmt::format("{} run{}", runs, runs == 1 ? "" : "s");
+}
+
 std::optional<double> percent(std::optional<double> share) {
   return share ? std::optional(100 * *share) : std::nullopt;
 }
 
 std::optional<double> timeShare(const ObjectRuns& set, const RunResult& run) {
-  if (run.iterations.empty()) return std::nullopt;
+  if (!castRays(set.uniform()) || run.iterations.empty()) return std::nullopt;
   return ratio(run.meanNbv_s(), set.uniform().meanNbv_s());
 }
 
 std::optional<double> cpuShare(const ObjectRuns& set, const RunResult& run) {
-  if (run.iterations.empty()) return std::nullopt;
+  if (!castRays(set.uniform()) || run.iterations.empty()) return std::nullopt;
   return ratio(run.meanCpu_s(), set.uniform().meanCpu_s());
 }
 
@@ -61,7 +70,8 @@ std::optional<double> hiddenVisitShare(const ObjectRuns& set, const RunResult& r
 }
 
 std::optional<double> lostPoints(const ObjectRuns& set, const RunResult& run) {
-  if (!run.coverage || !(set.uniform().coverage.value_or(0.0) > 0.0)) return std::nullopt;
+  if (set.uniform().scans < 2 || !run.coverage || !(set.uniform().coverage.value_or(0.0) > 0.0))
+    return std::nullopt;
   return 100 * (*set.uniform().coverage - *run.coverage);
 }
 

@@ -128,7 +128,7 @@ Phases RateRun::mean() const {
 }
 
 std::optional<double> RateRun::secondsPerView() const {
-  return candidates > 0 ? std::optional(mean().evaluate / candidates) : std::nullopt;
+  return scored > 0 ? std::optional(mean().evaluate / candidates) : std::nullopt;
 }
 
 bool RateRun::unknownFalls() const {

@@ -27,7 +27,7 @@ struct RateRun {
   bool cut_off = false;  ///< its steps were used up
 
   Phases mean() const;
-  /// Seconds of a candidate; none if none was evaluated.
+  /// Seconds of a candidate; none if no ray was cast for any.
   std::optional<double> secondsPerView() const;
   /// Every scan leaves less unknown than the one before.
   bool unknownFalls() const;

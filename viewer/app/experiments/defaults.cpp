@@ -14,11 +14,13 @@ std::string number(double value) {
   return fmt::format("{:g}", value);
 }
 
-std::string candidatesText(const HierarchicalPlannerConfig& h) {
-  if (h.generator == CandidateGenerator::Workspace)
-    return fmt::format("{} drawn in the workspace", h.workspace_views);
-  return fmt::format("{} faces of an icosphere, radius {:g} m", 20 << (2 * h.icosphere_subdivisions),
-                     h.sphere_radius_m);
+std::string candidatesText(const ExplorationConfig& exploration) {
+  const HierarchicalPlannerConfig& h = exploration.hierarchical;
+  const std::string made = h.generator == CandidateGenerator::Workspace
+                               ? fmt::format("{} drawn in the workspace", h.workspace_views)
+                               : fmt::format("{} faces of an icosphere, radius {:g} m",
+                                             20 << (2 * h.icosphere_subdivisions), h.sphere_radius_m);
+  return made + (exploration.recorded_candidates ? ", and the recorded poses that are left" : "");
 }
 
 std::string surfaceText(const HierarchicalPlannerConfig& h, const char* unit) {
@@ -41,7 +43,8 @@ std::vector<DefaultUsed> defaultsUsed(const Settings& settings, const std::strin
   const OccupancyConfig& o = settings.exploration.octree.occupancy;
   const char* unit = h.count == GainCount::Voxels ? "voxels" : "rays";
   std::vector<DefaultUsed> defaults = {
-      {"candidates", candidatesText(h), "320 and 1500 are the paper's; radius: released example", ""},
+      {"candidates", candidatesText(settings.exploration),
+       "320 and 1500 are the paper's; radius: released example", ""},
       {"aperture a_h x a_v",
        fmt::format("{:.3g} x {:.3g} deg", h.sensor.horizontal_fov_rad / kDegree,
                    h.sensor.vertical_fov_rad / kDegree),
