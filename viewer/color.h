@@ -49,6 +49,7 @@ inline constexpr Rgb kRayOccupied = rgb(0, 70, 130);
 inline constexpr Rgb kRejectedPosition = rgb(172, 174, 178);
 inline constexpr Rgb kRejectedRegistration = rgb(228, 230, 232);
 inline constexpr Rgb kRejectedPath = rgb(200, 202, 206);
+inline constexpr Rgb kRejectedExecuted = rgb(186, 188, 192);
 }  // namespace palette
 
 /// Perceptually uniform maps, safe for colour-blind readers.

@@ -24,7 +24,9 @@ RgbImage swatch(const LegendEntry& entry) {
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const int u = std::abs(x - kWidth / 2), v = std::abs(y - kHalf);
-      const bool marked = entry.mark == LegendEntry::Mark::Crossed ? std::abs(u - v) <= 1 && u <= kHalf - 3
+      const bool ring = std::abs(std::hypot(u, v) - (kHalf - 4)) <= 1.2;
+      const bool marked = entry.mark == LegendEntry::Mark::Crossed  ? std::abs(u - v) <= 1 && u <= kHalf - 3
+                          : entry.mark == LegendEntry::Mark::Ringed ? ring
                           : entry.mark == LegendEntry::Mark::Striped
                               ? x % 10 >= 4 && x % 10 < 7 && v < kHalf - 3
                               : u + v <= kHalf - 4;
@@ -59,6 +61,7 @@ void drawMark(Page& page, double x, double y, const LegendEntry& entry, double u
     case LegendEntry::Mark::Crossed:
     case LegendEntry::Mark::Striped:
     case LegendEntry::Mark::Diamond:
+    case LegendEntry::Mark::Ringed:
       page.picture(x, y, w, h, swatch(entry));
       page.frame(x, y, w, h, palette::kFaintInk);
       break;

@@ -32,6 +32,14 @@ int coarseLevels(const SceneFrame& frame) {
   return plannerOf(frame) == toString(PlannerKind::Uniform) ? 0 : frame.header.octree->planner.coarse_levels;
 }
 
+Box nodesInBox(const SceneFrame& frame, int level) {
+  const Box& box = frame.header.octree->object_box;
+  if (level == 0 || box.isEmpty()) return box;
+  constexpr double kTouching = 1.0 - 1e-6;  // nodes that only share a border do not intersect it
+  const double half_m = frame.pyramid->level(level).geometry().voxel_size_m / 2 * kTouching;
+  return {box.min().array() - half_m, box.max().array() + half_m};
+}
+
 PinholeCamera viewCamera(const SceneFrame& frame) {
   if (!onOctree(frame)) return frame.header.camera;
   constexpr int kAcross = 1000;  // pixels; only the aperture matters

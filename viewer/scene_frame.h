@@ -30,6 +30,10 @@ bool onOctree(const SceneFrame& frame);
 /// \pre onOctree()
 int coarseLevels(const SceneFrame& frame);
 
+/// Nodes that are in the object's box: their centres lie in this one. A node is in the box if it intersects
+/// it, a finest voxel if its centre is inside (D-A8). \pre onOctree()
+Box nodesInBox(const SceneFrame& frame, int level);
+
 /// What a candidate of the step sees: the planner's ray sensor on the octree, else the camera.
 PinholeCamera viewCamera(const SceneFrame& frame);
 

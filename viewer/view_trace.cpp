@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <string>
+
+#include "io/error.h"
 
 namespace vantage {
 namespace {
@@ -32,9 +33,9 @@ const ViewUtility* tracedView(const SceneFrame& frame, const LayerStyle& style) 
     const auto found =
         std::ranges::find(search.views, static_cast<std::uint32_t>(*style.view_id), &ViewUtility::id);
     if (found == search.views.end())
-      throw std::invalid_argument("view_id = " + std::to_string(*style.view_id) +
-                                  " is no candidate of step " + std::to_string(frame.record.step) +
-                                  "; allowed: 0 .. " + std::to_string(search.views.size() - 1));
+      throw InputError("view_id = " + std::to_string(*style.view_id),
+                       "is no candidate of step " + std::to_string(frame.record.step) + "; allowed: 0 .. " +
+                           std::to_string(search.views.size() - 1));
     return &*found;
   }
   if (const ViewUtility* chosen = chosenUtility(search)) return chosen;
@@ -46,10 +47,7 @@ std::optional<ViewTrace> traceView(const SceneFrame& frame, const LayerStyle& st
   if (!view) return std::nullopt;
   const HierarchicalPlannerConfig& config = frame.header.octree->planner;
   ViewTrace trace{.view = view, .coarse_levels = coarseLevels(frame)};
-  HierarchicalQuery query;
-  query.bounds = frame.header.octree->object_box;
-  query.start = config.child_start;
-  query.refine_unknown = config.refine_unknown;
+  const HierarchicalQuery query = queryOf(frame.header.octree->object_box, config);
   trace.counts = traceHierarchical(*frame.pyramid, *frame.tree, trace.coarse_levels, view->T_world_camera,
                                    query, trace.rays);
   return trace;

@@ -17,7 +17,7 @@ struct ViewTrace {
 };
 
 /// The view whose rays are drawn: that of the style, else the chosen one, else the best; null if the step has
-/// no candidates on an octree. \throws std::invalid_argument naming the range if the style asks for a view
+/// no candidates on an octree. \throws InputError naming the range if the style asks for a view
 /// that is no candidate.
 const ViewUtility* tracedView(const SceneFrame& frame, const LayerStyle& style);
 

@@ -73,6 +73,7 @@ TEST(Captions, SayHowTheUtilityOfTheChosenViewCameAbout) {
   EXPECT_THAT(text, HasSubstr("View " + std::to_string(chosen->id) + ": " +
                               grouped(static_cast<std::uint64_t>(chosen->unknown)) + " unknown and " +
                               grouped(static_cast<std::uint64_t>(chosen->occupied)) + " known rays in"));
+  EXPECT_THAT(text, HasSubstr(" (seen rays per unknown voxel) × distance factor "));
   EXPECT_THAT(text, HasSubstr(grouped(search.rejected_position) + " fell out by position"));
   EXPECT_THAT(text, HasSubstr(grouped(search.rejected_registration) + " by registration"));
   EXPECT_THAT(text, HasSubstr("2 better ones are unreachable"));
@@ -86,14 +87,49 @@ TEST(Captions, SayThatNoViewSeesEnough) {
   EXPECT_THAT(utilityFigures(run.frame(), {}), HasSubstr("No view was chosen: the best of the "));
 }
 
+TEST(Captions, TellReachabilityFromTooLittleUnknownAndFromNoViewAtAll) {
+  test::SyntheticOctreeRun run = test::makeSyntheticOctreeRun();
+  UtilitySearch search = *run.record.utilities;
+  search.chosen.reset();
+  for (const std::uint32_t n : search.ranking) search.views[n].reachability = Reachability::NoPath;
+  search.counts.poses_unreachable = search.ranking.size();
+  run.record.utilities = std::make_shared<UtilitySearch>(search);
+  ASSERT_GT(search.counts.poses_above_threshold, 1u);
+  EXPECT_THAT(utilityFigures(run.frame(), {}),
+              testing::StartsWith("No view was chosen: " + grouped(search.counts.poses_above_threshold) +
+                                  " see enough, 100 unknown rays or more, but none can be reached. Of "));
+  search.ranking.clear();
+  search.best_unknown = 0.0;
+  search.counts.poses_executed_before = 2;
+  run.record.utilities = std::make_shared<UtilitySearch>(search);
+  EXPECT_THAT(utilityFigures(run.frame(), {}), testing::StartsWith("No view was chosen: none is left. Of "));
+  EXPECT_THAT(utilityFigures(run.frame(), {}), HasSubstr(", 2 were taken before."));
+}
+
+TEST(Captions, SayThatTheChosenViewSeesLessThanTheStopRuleAsks) {
+  test::SyntheticOctreeRun run = test::makeSyntheticOctreeRun();
+  EXPECT_THAT(utilityFigures(run.frame(), {}), testing::Not(HasSubstr("another view sees")));
+  const double seen = chosenUtility(*run.record.utilities)->unknown;
+  run.header.octree->planner.stop_gain = seen + 1.0;
+  EXPECT_THAT(utilityFigures(run.frame(), {}),
+              HasSubstr("That is fewer than the " + grouped(static_cast<std::uint64_t>(seen) + 1) +
+                        " of the stop rule; another view sees "));
+}
+
 TEST(Captions, OctreeNodesAreCountedAtTheDepthThatIsDrawn) {
   const test::SyntheticOctreeRun run = test::makeSyntheticOctreeRun();
   LayerStyle style;
   style.octree_level = 3;
-  const Box& box = run.header.octree->object_box;
   EXPECT_THAT(octreeFigures(run.frame(), style), HasSubstr("Depth 13 of the octree, nodes of 8 cm"));
+  const Box box = nodesInBox(run.frame(), 3);
   EXPECT_THAT(octreeFigures(run.frame(), style),
-              HasSubstr(grouped(run.pyramid.level(3).count(VoxelState::Occupied, box)) + " occupied"));
+              HasSubstr("Nodes that meet the object's box: " +
+                        grouped(run.pyramid.level(3).count(VoxelState::Occupied, box)) + " occupied, " +
+                        grouped(run.pyramid.level(3).count(VoxelState::Unknown, box)) + " unknown"));
+  for (const int level : {0, 5, 8}) {  // the box holds unknown, so some node does
+    style.octree_level = level;
+    EXPECT_THAT(octreeFigures(run.frame(), style), testing::Not(HasSubstr("0 occupied, 0 unknown, 0 free")));
+  }
   EXPECT_THAT(octreeFigures(run.frame(), {}), HasSubstr("nodes of 4 cm"));  // where tracing starts, m = 2
 }
 
@@ -105,7 +141,8 @@ TEST(Captions, RaysAreThoseOfTheStyleView) {
   const ViewUtility& chosen = *chosenUtility(*run.record.utilities);
   EXPECT_THAT(rayFigures(run.frame(), {}),
               HasSubstr("Counted: " + grouped(chosen.rays.unknown) + " finest rays on unknown, " +
-                        grouped(chosen.rays.occupied) + " on occupied"));
+                        grouped(chosen.rays.occupied) +
+                        " on occupied; a ray that ends coarse counts for all finest ones below it."));
 }
 
 TEST(Captions, ProductsOfTheOtherPlannerDoNotExist) {

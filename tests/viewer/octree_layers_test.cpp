@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/gpu/egl_context.h"
+#include "io/error.h"
 #include "tests/support/synthetic_record.h"
 #include "viewer/layers/layer.h"
 #include "viewer/offscreen_renderer.h"
@@ -110,6 +111,50 @@ TEST(OctreeLayers, OneOccupiedVoxelMakesItsWholeNodeACube) {
   }
 }
 
+TEST(OctreeLayers, NodesInTheBoxAreThoseThatIntersectIt) {
+  const SceneFrame frame = sharedRun().frame();
+  const Box& object = frame.header.octree->object_box;
+  for (const int level : {0, 1, 3, 6, 8}) {
+    const GridGeometry& nodes = frame.pyramid->level(level).geometry();
+    const Box in_box = nodesInBox(frame, level);
+    std::size_t counted = 0, intersecting = 0;
+    for (std::size_t n = 0; n < nodes.count(); ++n) {
+      const Eigen::Vector3d center = nodes.center(nodes.voxel(n));
+      const Eigen::Array3d apart = (center - object.center()).array().abs() - object.sizes().array() / 2;
+      counted += in_box.contains(center);
+      intersecting += level == 0 ? object.contains(center) : (apart < nodes.voxel_size_m / 2 - 1e-7).all();
+    }
+    EXPECT_GT(counted, 0u) << level;
+    EXPECT_EQ(counted, intersecting) << level;
+  }
+}
+
+TEST(OctreeLayers, AtACoarseLevelTheColourOfTheBoxStaysInItAndAllOfItMustBeSeen) {
+  LayerStyle style;
+  style.octree_level = 5;
+  const SceneFrame frame = sharedRun().frame();
+  const LayerContent content = buildLayer(Layer::Octree, frame, style);
+  const Box& object = frame.header.octree->object_box;
+  Box seen;
+  for (const Eigen::Vector3d& point : content.must_see) seen.extend(point);
+  EXPECT_TRUE(seen.contains(object));
+  int in_box = 0;
+  for (std::size_t i = 0; i < content.props.size(); ++i) {
+    vtkActor* actor = vtkActor::SafeDownCast(content.props[i]);
+    const double* color = actor->GetProperty()->GetColor();
+    if (std::abs(color[0] - palette::kOccupied.r) > 1e-6) continue;
+    ++in_box;
+    double b[6];
+    dataOf(content, i)->GetCellsBounds(b);
+    for (int a = 0; a < 3; ++a) {
+      EXPECT_GE(b[2 * a], object.min()[a] - 0.0151) << a;
+      EXPECT_LE(b[2 * a + 1], object.max()[a] + 0.0151) << a;
+    }
+  }
+  EXPECT_EQ(in_box, 1);
+  EXPECT_TRUE(hasMark(content, LegendEntry::Mark::Line));  // nodes are no second grey
+}
+
 TEST(OctreeLayers, UnknownStaysTranslucent) {
   const LayerContent content = buildLayer(Layer::HitVoxels, sharedRun().frame(), {});
   int translucent = 0;
@@ -154,8 +199,8 @@ TEST(ViewTrace, ChosenViewIsTheDefaultThenTheBestThenNone) {
   EXPECT_EQ(tracedView(run.frame(), {}), nullptr);
   LayerStyle style;
   style.view_id = 320;
-  EXPECT_THROW(tracedView(run.frame(), style), std::invalid_argument);
-  EXPECT_THROW(buildLayer(Layer::CoarseRays, run.frame(), style), std::invalid_argument);
+  EXPECT_THROW(tracedView(run.frame(), style), InputError);
+  EXPECT_THROW(buildLayer(Layer::CoarseRays, run.frame(), style), InputError);
 }
 
 TEST(ViewTrace, ThinningKeepsFamiliesTogether) {
@@ -200,13 +245,33 @@ TEST(ViewTrace, NodesHitAreOfTheStateOfTheirFate) {
   EXPECT_GT(occupied, 20u);
 }
 
+/// The run with one survivor, which was not tried, as near a view taken before.
+SyntheticOctreeRun runWithATakenView(CandidateGenerator generator = CandidateGenerator::Icosphere) {
+  SyntheticOctreeRun run = test::makeSyntheticOctreeRun(generator);
+  UtilitySearch search = *run.record.utilities;
+  ViewUtility& view = search.views.at(search.ranking.back());
+  view.rejection = ViewRejection::Executed;
+  view.unknown = view.occupied = view.surface = view.distance = view.utility = 0.0;
+  search.ranking.pop_back();
+  search.counts.poses_executed_before = 1;
+  run.record.utilities = std::make_shared<UtilitySearch>(search);
+  return run;
+}
+
 TEST(UtilitySphere, HasOneFaceACandidateAndAMarkForEveryReason) {
-  const LayerContent content = buildLayer(Layer::UtilitySphere, sharedRun().frame(), {});
+  const SyntheticOctreeRun run = runWithATakenView();
+  const LayerContent content = buildLayer(Layer::UtilitySphere, run.frame(), {});
   ASSERT_NE(dataOf(content), nullptr);
   EXPECT_EQ(dataOf(content)->GetNumberOfCells(), 320);
   EXPECT_TRUE(hasMark(content, LegendEntry::Mark::Crossed));
   EXPECT_TRUE(hasMark(content, LegendEntry::Mark::Striped));
   EXPECT_TRUE(hasMark(content, LegendEntry::Mark::Diamond));
+  EXPECT_TRUE(hasMark(content, LegendEntry::Mark::Ringed));
+  // A mark more than without the view that was taken: its ring.
+  const LayerContent before = buildLayer(Layer::UtilitySphere, sharedRun().frame(), {});
+  EXPECT_FALSE(hasMark(before, LegendEntry::Mark::Ringed));
+  EXPECT_EQ(dataOf(content, 2)->GetNumberOfCells(), dataOf(before, 2)->GetNumberOfCells() + 2 * 10);
+  EXPECT_EQ(dataOf(content, 1)->GetNumberOfCells(), dataOf(before, 1)->GetNumberOfCells() - 1);
   std::set<std::array<std::uint8_t, 3>> neutral;
   for (const LegendEntry& entry : content.legend) neutral.insert(entry.color.bytes());
   EXPECT_EQ(neutral.size(), content.legend.size());  // no two reasons share a colour
@@ -240,6 +305,8 @@ TEST(UtilitySphere, WorkspaceCandidatesAreDotsAndMarks) {
             8 * std::min<std::size_t>(left, 24));
   EXPECT_EQ(static_cast<std::size_t>(dataOf(content, 2)->GetNumberOfCells()), left);
   EXPECT_TRUE(hasMark(content, LegendEntry::Mark::Cross));
+  const SyntheticOctreeRun taken = runWithATakenView(CandidateGenerator::Workspace);
+  EXPECT_TRUE(hasMark(buildLayer(Layer::UtilitySphere, taken.frame(), {}), LegendEntry::Mark::Ringed));
 }
 
 TEST(LayerStyle, NewSettingsOutOfRangeAreRefused) {

@@ -19,7 +19,8 @@ struct LegendEntry {
     Cross,
     Crossed,  ///< the fill with a cross on it
     Striped,  ///< the fill with stripes
-    Diamond   ///< the fill with a diamond on it
+    Diamond,  ///< the fill with a diamond on it
+    Ringed    ///< the fill with a ring on it
   };
   Mark mark = Mark::Fill;
   Rgb color;

@@ -118,14 +118,15 @@ LayerContent octreeLayer(const SceneFrame& frame, const LayerStyle& style) {
   const StateGrid& nodes = pyramid.level(level);
   Box clip = frame.header.workspace;
   if (!clip.isEmpty()) clip.min().z() -= kSupportMargin_m;
-  // Nodes that intersect the object's box: only these count (D-A8).
-  const Box& object = frame.header.octree->object_box;
-  const double half_m = nodes.geometry().voxel_size_m / 2;
-  const Box node_clip =
-      object.isEmpty() ? object : Box(object.min().array() - half_m, object.max().array() + half_m);
+  const Box node_clip = nodesInBox(frame, level);  // only these count
+  for (int c = 0; !node_clip.isEmpty() && c < 8; ++c)
+    content.must_see.push_back(node_clip.corner(static_cast<Box::CornerType>(c)));
 
   const FaceMesh solid = extractFaces(pyramid.finest(), VoxelState::Occupied, FaceRule::TowardOther, clip);
-  const auto [inside, around] = splitFaces(solid, node_clip);
+  const double half_m = pyramid.finest().geometry().voxel_size_m / 2;
+  const Box& object = frame.header.octree->object_box;
+  const auto [inside, around] =
+      splitFaces(solid, Box(object.min().array() - half_m, object.max().array() + half_m));
   if (!around.empty()) {
     content.props.push_back(faceActor(around, palette::kAround, 1.0));
     content.legend.push_back({Mark::Fill, palette::kAround, 1.0, "occupied, outside the object's box"});
@@ -133,14 +134,15 @@ LayerContent octreeLayer(const SceneFrame& frame, const LayerStyle& style) {
   if (!inside.empty()) {
     content.props.push_back(faceActor(inside, palette::kOccupied, 1.0));
     content.legend.push_back(
-        {Mark::Fill, palette::kOccupied, 1.0, "occupied voxels, " + edgeText(pyramid, 0)});
+        {Mark::Fill, palette::kOccupied, 1.0, "occupied voxels in the box, " + edgeText(pyramid, 0)});
   }
   if (level > 0) {
     const FaceMesh cubes = extractFaces(nodes, VoxelState::Occupied, FaceRule::TowardOther, node_clip);
     addNodes(content, cubes, palette::kNode, 0.10, palette::kNode, 1.2 * style.line_scale, 0.7);
     if (!cubes.empty())
-      content.legend.push_back({Mark::Fill, palette::kNode, 0.4,
-                                "nodes of " + edgeText(pyramid, level) + " with anything occupied in them"});
+      content.legend.push_back(
+          {Mark::Line, palette::kNode, 1.0,
+           "occupied nodes of " + edgeText(pyramid, level) + " that meet the object's box"});
   }
   const FaceMesh frontier = extractFaces(nodes, VoxelState::Unknown, FaceRule::TowardFree, node_clip);
   if (frontier.empty()) return content;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "core/geometry/icosphere.h"
 #include "viewer/layers/layer.h"
@@ -17,17 +18,20 @@ namespace {
 using Mark = LegendEntry::Mark;
 
 /// Why a candidate has no colour.
-enum class Fallen { No, Position, Registration, Path };
+enum class Fallen { No, Position, Registration, Executed, Path };
+constexpr Fallen kReasons[] = {Fallen::Position, Fallen::Registration, Fallen::Executed, Fallen::Path};
 
 Fallen fallenOf(const ViewUtility& view) {
   if (view.rejection == ViewRejection::Position) return Fallen::Position;
   if (view.rejection == ViewRejection::Registration) return Fallen::Registration;
+  if (view.rejection == ViewRejection::Executed) return Fallen::Executed;
   return isUnreachable(view.reachability) ? Fallen::Path : Fallen::No;
 }
 
 Rgb colorOf(Fallen fallen) {
   return fallen == Fallen::Position       ? palette::kRejectedPosition
          : fallen == Fallen::Registration ? palette::kRejectedRegistration
+         : fallen == Fallen::Executed     ? palette::kRejectedExecuted
                                           : palette::kRejectedPath;
 }
 
@@ -66,7 +70,7 @@ ColorScale scaleOf(const SceneFrame& frame, UtilityFactor factor) {
       scale.title = "distance factor, 1 = no motion";
       break;
     case UtilityFactor::Utility:
-      scale.title = "utility: unknown share × distance factor";
+      scale.title = "utility: surface factor × distance factor";
       break;
   }
   return scale;
@@ -114,7 +118,14 @@ SphereFace faceOf(const Icosphere& sphere, std::size_t face, const Eigen::Vector
   return out;
 }
 
-/// Reasons differ by mark, not by colour alone: a cross, stripes, a diamond.
+/// A ring as strokes between its corners: (1, 0) turned.
+constexpr int kRingCorners = 10;
+std::pair<double, double> ringCorner(int n) {
+  const double angle_rad = 2.0 * std::numbers::pi * n / kRingCorners;
+  return {std::cos(angle_rad), std::sin(angle_rad)};
+}
+
+/// Reasons differ by mark, not by colour alone: a cross, stripes, a ring, a diamond.
 void addReason(Patches& marks, const SphereFace& face, Fallen fallen) {
   constexpr Rgb kMark = rgb(96, 98, 104);
   const double size = face.size(), width = 0.08 * size;
@@ -126,6 +137,12 @@ void addReason(Patches& marks, const SphereFace& face, Fallen fallen) {
   } else if (fallen == Fallen::Registration) {
     for (const double x : {-0.24, 0.0, 0.24})
       marks.addStroke(at(x, -0.2), at(x, 0.2), face.normal, width, rgb(150, 152, 156));
+  } else if (fallen == Fallen::Executed) {
+    for (int n = 0; n < kRingCorners; ++n) {
+      const auto [x0, y0] = ringCorner(n);
+      const auto [x1, y1] = ringCorner(n + 1);
+      marks.addStroke(at(0.2 * x0, 0.2 * y0), at(0.2 * x1, 0.2 * y1), face.normal, width, kMark);
+    }
   } else if (fallen == Fallen::Path) {
     marks.add(at(-0.2, 0.0), at(0.0, -0.2), at(0.2, 0.0), kMark);
     marks.add(at(-0.2, 0.0), at(0.2, 0.0), at(0.0, 0.2), kMark);
@@ -142,6 +159,9 @@ void addReasonLegend(LayerContent& content, Fallen fallen) {
       content.legend.push_back(
           {Mark::Striped, colorOf(fallen), 1.0, "rejected: too little known surface in view"});
       break;
+    case Fallen::Executed:
+      content.legend.push_back({Mark::Ringed, colorOf(fallen), 1.0, "rejected: near a view taken before"});
+      break;
     case Fallen::Path:
       content.legend.push_back({Mark::Diamond, colorOf(fallen), 1.0, "better, but cannot be reached"});
       break;
@@ -151,7 +171,7 @@ void addReasonLegend(LayerContent& content, Fallen fallen) {
 }
 
 void addReasonLegends(LayerContent& content, const UtilitySearch& search) {
-  for (const Fallen fallen : {Fallen::Position, Fallen::Registration, Fallen::Path}) {
+  for (const Fallen fallen : kReasons) {
     if (std::ranges::any_of(search.views, [&](const ViewUtility& v) { return fallenOf(v) == fallen; }))
       addReasonLegend(content, fallen);
   }
@@ -237,7 +257,7 @@ void addScattered(LayerContent& content, const SceneFrame& frame, const LayerSty
   const UtilitySearch& search = *frame.record.utilities;
   std::vector<Eigen::Vector3d> eyes, few_known;
   std::vector<Rgb> colors;
-  LineSet crosses, diamonds;
+  LineSet crosses, diamonds, rings;
   for (const ViewUtility& view : search.views) {
     if (onSphere(frame, view)) continue;
     const Eigen::Vector3d eye = view.T_world_camera.translation();
@@ -254,6 +274,13 @@ void addScattered(LayerContent& content, const SceneFrame& frame, const LayerSty
         break;
       case Fallen::Registration:
         few_known.push_back(eye);
+        break;
+      case Fallen::Executed:
+        for (int n = 0; n < kRingCorners; ++n) {
+          const auto [x0, z0] = ringCorner(n);
+          const auto [x1, z1] = ringCorner(n + 1);
+          rings.add(eye + x0 * x + z0 * z, eye + x1 * x + z1 * z);
+        }
         break;
       case Fallen::Path:
         for (const auto& [a, b] : {std::pair{x, z}, {z, -x}, {-x, -z}, {-z, x}})
@@ -276,6 +303,10 @@ void addScattered(LayerContent& content, const SceneFrame& frame, const LayerSty
     content.props.push_back(lineActor(crosses, palette::kUnreachable, 1.2 * line));
     content.legend.push_back(
         {Mark::Cross, palette::kUnreachable, 1.0, "rejected: the sensor does not fit there"});
+  }
+  if (!rings.pieces.empty()) {
+    content.props.push_back(lineActor(rings, palette::kUnreachable, 1.2 * line));
+    content.legend.push_back({Mark::Ringed, palette::kPaper, 1.0, "rejected: near a view taken before"});
   }
   if (!diamonds.pieces.empty()) {
     content.props.push_back(lineActor(diamonds, palette::kUnreachable, 1.5 * line));

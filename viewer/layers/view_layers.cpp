@@ -107,7 +107,7 @@ LayerContent rankedViewsLayer(const SceneFrame& frame, const LayerStyle& style) 
   if (!colored.pieces.empty()) {
     content.props.push_back(lineActor(colored, palette::kInk, 2.0 * style.line_scale));
     content.scale = ColorScale{ColorMap::Viridis,
-                               search ? "gain of the view, rays" : "utility: unknown share × distance factor",
+                               search ? "gain of the view, rays" : "utility: surface factor × distance factor",
                                range.low, range.high, false};
     content.legend.push_back(
         {Mark::Line, colorAt(ColorMap::Viridis, 0.5), 1.0,
