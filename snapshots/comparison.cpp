@@ -50,12 +50,26 @@ class ComparedRun {
 
 using Pair = std::array<std::unique_ptr<ComparedRun>, 2>;
 
-void requireOneScene(const ComparedRun& a, const ComparedRun& b) {
-  const RunHeader &first = a.header(), &second = b.header();
-  if (first.input != second.input || first.truth.vertices != second.truth.vertices ||
-      first.truth.triangles != second.truth.triangles)
-    throw InputError(b.path().string(), "is about '" + second.input + "', but " + a.path().string() +
-                                            " about '" + first.input + "'; compare runs of one scene");
+/// One place, however its path is spelt; names of embedded scenes stay apart too.
+std::filesystem::path placeOf(std::string input) {
+  if (input.ends_with('/')) input.pop_back();
+  std::error_code error;
+  const auto place = std::filesystem::weakly_canonical(std::filesystem::absolute(input, error), error);
+  return error ? std::filesystem::path(input) : place;
+}
+
+bool sameScene(const RunHeader& a, const RunHeader& b) {
+  return placeOf(a.input) == placeOf(b.input) && a.truth.vertices == b.truth.vertices &&
+         a.truth.triangles == b.truth.triangles;
+}
+
+/// "run 1 1, run 2 7" of values that are not all the same, else empty.
+std::string listed(const std::vector<std::string>& values) {
+  if (std::ranges::all_of(values, [&](const std::string& value) { return value == values[0]; })) return "";
+  std::string text;
+  for (std::size_t n = 0; n < values.size(); ++n)
+    text += (n > 0 ? ", run " : "run ") + std::to_string(n + 1) + ": " + values[n];
+  return text;
 }
 
 std::vector<int> rowsOf(const Pair& runs, const ComparisonRequest& request) {
@@ -71,16 +85,26 @@ std::vector<int> rowsOf(const Pair& runs, const ComparisonRequest& request) {
   return {wanted};
 }
 
+/// Which run a column is of; where they are measured differently, also how.
+std::string noteOf(const ComparedRun& run, bool measured_differently) {
+  const RunHeader& header = run.header();
+  std::string note = run.name() + "  ·  " + header.planner;
+  if (!measured_differently) return note;
+  const MeasuredMap map = measuredMap(header);
+  return note + "  ·  " + map.kind + ", " + lengthText(map.voxel_size_m) + ", seed " +
+         std::to_string(header.seed);
+}
+
 /// Per recipe a column of each run, under the recipe's title and the run's planner.
 std::vector<ContactSheet::Column> columnsOf(const Pair& runs, const ComparisonRequest& request) {
   const std::vector<std::string> names =
       request.recipes.empty() ? std::vector<std::string>{"states", "views"} : request.recipes;
+  const bool differently = !differencesOf({runs[0]->header(), runs[1]->header()}).empty();
   std::vector<ContactSheet::Column> columns;
   for (const std::string& name : names) {
     Recipe recipe = recipeFrom(name);
     for (const std::string& assignment : request.style) setStyle(recipe.view.style, assignment);
-    for (const auto& run : runs)
-      columns.push_back({recipe.title, recipe, run->name() + "  ·  " + run->header().planner});
+    for (const auto& run : runs) columns.push_back({recipe.title, recipe, noteOf(*run, differently)});
   }
   return columns;
 }
@@ -94,13 +118,43 @@ std::filesystem::path pagePath(const std::filesystem::path& output, const Pair& 
 
 }  // namespace
 
+MeasuredMap measuredMap(const RunHeader& header) {
+  const bool octree_alone = std::ranges::all_of(plannersFromText(header.planner), usesOctree);
+  if (octree_alone && header.octree) return {"octree", header.octree->map.voxel_size_m};
+  return {"TSDF", header.volume.voxel_size_m};
+}
+
+void requireOneScene(const std::vector<std::string>& paths, const std::vector<RunHeader>& headers) {
+  for (std::size_t n = 1; n < headers.size(); ++n)
+    if (!sameScene(headers[0], headers[n]))
+      throw InputError(paths[n], "is about '" + headers[n].input + "', but " + paths[0] + " about '" +
+                                     headers[0].input + "'; compare runs of one scene");
+}
+
+std::vector<std::string> differencesOf(const std::vector<RunHeader>& headers) {
+  std::vector<std::string> maps, voxels, seeds, differences;
+  for (const RunHeader& header : headers) {
+    const MeasuredMap map = measuredMap(header);
+    maps.push_back(map.kind);
+    voxels.push_back(lengthText(map.voxel_size_m));
+    seeds.push_back(std::to_string(header.seed));
+  }
+  for (const auto& [what, values] :
+       {std::pair("measured on different maps", &maps), std::pair("voxel sizes differ", &voxels),
+        std::pair("seeds differ", &seeds)})
+    if (const std::string list = listed(*values); !list.empty())
+      differences.push_back(std::string(what) + " (" + list + ")");
+  return differences;
+}
+
 std::vector<std::filesystem::path> takeComparison(const std::filesystem::path& run_a,
                                                   const std::filesystem::path& run_b,
                                                   const ComparisonRequest& request,
                                                   const RunControl& control) {
   if (request.output.empty()) throw InputError("output", "no file or folder is named; give one");
   Pair runs = {std::make_unique<ComparedRun>(run_a), std::make_unique<ComparedRun>(run_b)};
-  requireOneScene(*runs[0], *runs[1]);
+  const std::vector<RunHeader> headers = {runs[0]->header(), runs[1]->header()};
+  requireOneScene({run_a.string(), run_b.string()}, headers);
   const std::vector<int> rows = rowsOf(runs, request);
   const std::vector<ContactSheet::Column> columns = columnsOf(runs, request);
   if (rows.empty())

@@ -12,7 +12,7 @@ namespace vantage {
 namespace {
 
 // Pixels.
-constexpr int kTileWidth = 480, kTileHeight = 330, kCaption = 124, kGap = 14, kMargin = 20;
+constexpr int kTileWidth = 480, kTileHeight = 330, kCaption = 142, kGap = 14, kMargin = 20;
 constexpr int kHead = 104, kRowHead = 74, kLegendLine = 27;
 constexpr int kInsetWidth = 118, kScaleWidth = 170;
 

@@ -92,6 +92,19 @@ bool Recipe::fits(PlannerKind planner) const {
   return usesOctree(planner) ? std::ranges::none_of(kOnTsdf, shows) : std::ranges::none_of(kOnOctree, shows);
 }
 
+bool Recipe::showsRays() const {
+  static constexpr Layer kOfRays[] = {Layer::HitVoxels, Layer::CoarseRays, Layer::RefinedRays};
+  return std::ranges::any_of(kOfRays, [&](Layer layer) { return view.layers.has(layer); });
+}
+
+bool Recipe::foreign(PlannerKind planner) const {
+  static constexpr Figures* kOnTsdf[] = {contourFigures, segmentFigures};
+  static constexpr Figures* kOnOctree[] = {octreeFigures, rayFigures, utilityFigures};
+  const auto isCaption = [&](Figures* other) { return figures == other; };
+  return !fits(planner) && (usesOctree(planner) ? std::ranges::any_of(kOnTsdf, isCaption)
+                                                : std::ranges::any_of(kOnOctree, isCaption));
+}
+
 std::vector<std::string> defaultRecipes(PlannerKind planner) {
   if (usesOctree(planner)) return {"scene", "states", "octree", "rays", "utility", "views"};
   return {"scene", "states", "contours", "segments", "views"};

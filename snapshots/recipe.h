@@ -19,6 +19,10 @@ struct Recipe {
   Figures* figures = nullptr;  ///< the sentence under the title
   /// Shows products of planning, which the map after the last scan does not have.
   bool planning() const;
+  /// It shows the rays of a view, so that LayerStyle::view_id means something.
+  bool showsRays() const;
+  /// It is about products of the other kind of planner alone, e.g. rays for a step planned on contours.
+  bool foreign(PlannerKind planner) const;
   /// The products that it shows can exist for a step of that planner.
   bool fits(PlannerKind planner) const;
 };
@@ -56,9 +60,9 @@ const Recipe& recipeNamed(const std::string& name);
 ///     unreachable_views = 0                  # 0..500
 ///     frustum_length_m = 0.1
 ///     slice_axis = "y"                       # normal of the slice: x, y or z
-///     slice_at_m = 0.05                      # its place on that axis, world; default: middle of the
-///     workspace octree_level = 2                       # 0..8, nodes of 2^level voxels; default: where
-///     tracing starts view_id = 17                           # whose rays are drawn; default: the chosen view
+///     slice_at_m = 0.05                      # its place on that axis; default: middle of the workspace
+///     octree_level = 2                       # 0..8: nodes of 2^level voxels; default: where tracing starts
+///     view_id = 17                           # whose rays are drawn; default: the chosen view
 ///     coarse_rays = 300                      # how many of them at most
 ///     utility_factor = "utility"             # what colours candidates: utility, unknown, occupied, distance
 ///     label_px = 15

@@ -21,6 +21,12 @@ bool isPng(const std::string& output) {
   return std::filesystem::path(output).extension() == ".png";
 }
 
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
 std::string stepText(int step) {
   char text[16];
   std::snprintf(text, sizeof(text), "%02d", step);
@@ -66,11 +72,24 @@ void checkRequest(const SnapshotRequest& request, std::size_t steps, std::size_t
                          std::to_string(kLargestPicture) + " pixels");
   }
   if (!isPng(request.output)) return;
+  const std::filesystem::path folder = std::filesystem::path(request.output).parent_path();
+  if (!folder.empty() && folder.string().find('{') == std::string::npos &&
+      !std::filesystem::is_directory(folder))
+    throw InputError(request.output, "there is no folder '" + folder.string() + "'; make it first");
   const auto lacks = [&](const char* part) { return request.output.find(part) == std::string::npos; };
   if (steps > 1 && lacks("{step}"))
     throw InputError(request.output, "several steps would go into one file; add {step} or name a folder");
   if (wanted > 1 && lacks("{view}"))
     throw InputError(request.output, "several recipes would go into one file; add {view} or name a folder");
+}
+
+/// A view to trace that no picture would trace.
+void requireRays(const SnapshotRequest& request, const std::vector<Recipe>& recipes) {
+  const bool asked =
+      std::ranges::any_of(request.style, [](const std::string& s) { return s.starts_with("view_id"); });
+  if (asked && std::ranges::none_of(recipes, &Recipe::showsRays))
+    throw InputError("--style view_id", "recipe '" + recipes.front().name +
+                                            "' draws no rays of a view, which it is about; try recipe rays");
 }
 
 /// Pictures and sheets of a run, step by step.
@@ -84,6 +103,7 @@ class SnapshotSession {
       recipes_.push_back(recipeFrom(name));
       for (const std::string& assignment : request.style) setStyle(recipes_.back().view.style, assignment);
     }
+    requireRays(request, recipes_);
     steps_ = stepsOf(reader_, request, recipes_, run);
     checkRequest(request, steps_.size(), recipes_.size());
     name_ = run.stem().string();
@@ -96,6 +116,11 @@ class SnapshotSession {
       control_.check();
       drawStep(step);
     }
+    if (written_.empty())
+      throw InputError("recipe '" + recipes_.front().name + "'",
+                       "no step has anything of it: all were chosen by the " + reader_.header().planner +
+                           " planner; try " +
+                           joined(defaultRecipes(plannersFromText(reader_.header().planner).front())));
     if (sheet_ && sheet_->rows() > 0) finishSheet();
     return written_;
   }
@@ -105,6 +130,8 @@ class SnapshotSession {
     const bool closing = reader_.hasClosing() && step == reader_.closingStep();
     const StepRecord record =
         closing ? reader_.closing(RunDetail::NoVolume) : reader_.step(step, RunDetail::NoVolume);
+    const PlannerKind planner = plannerKindOf(reader_.header(), record);
+    if (request_.step) requireOwn(record, planner);
     const SceneFrame frame = maps_.at(record);
     scene_.setFrame(frame);
     const std::uint64_t total = steps_.size() * recipes_.size();
@@ -112,13 +139,24 @@ class SnapshotSession {
       control_.check();
       control_.report("pictures", done_++, total);
       if (closing && recipe.planning()) continue;
-      if (request_.recipes.empty() && !recipe.fits(plannerKindOf(reader_.header(), record))) continue;
+      if (request_.recipes.empty() ? !recipe.fits(planner) : recipe.foreign(planner)) continue;
       const RgbImage image = drawRecipe(scene_, *renderer_, recipe, frame, request_.width, request_.height);
       written_.push_back(snapshotPath(request_.output, name_, step, recipe.name));
       writePng(image, written_.back());
     }
     control_.report("pictures", done_, total);
     if (request_.contact_sheet && !request_.step && !isPng(request_.output)) addToSheet(frame);
+  }
+
+  /// One step is asked for, and what is to be shown of it does not exist.
+  void requireOwn(const StepRecord& record, PlannerKind planner) const {
+    if (request_.recipes.empty()) return;
+    for (const Recipe& recipe : recipes_)
+      if (recipe.foreign(planner))
+        throw InputError("recipe '" + recipe.name + "'",
+                         "step " + std::to_string(record.step) + " has nothing of it: it was chosen by the " +
+                             std::string(toString(planner)) + " planner; try " +
+                             joined(defaultRecipes(planner)));
   }
 
   void addToSheet(const SceneFrame& frame) {
@@ -186,9 +224,12 @@ std::filesystem::path snapshotPath(const std::string& output, const std::string&
 
 RgbImage drawRecipe(Scene& scene, OffscreenRenderer& renderer, const Recipe& recipe, const SceneFrame& frame,
                     int width, int height) {
+  const std::optional<int>& id = recipe.view.style.view_id;
+  const bool other = id && recipe.title == recipeNamed("rays").title;
   scene.show(viewFor(recipe, frame),
-             {recipe.title, stepLine(frame), recipe.figures(frame, recipe.view.style)}, PageStyle::Full,
-             width, height);
+             {other ? "Rays of view " + std::to_string(*id) : recipe.title, stepLine(frame),
+              recipe.figures(frame, recipe.view.style)},
+             PageStyle::Full, width, height);
   return renderer.render(scene.renderers(), width, height);
 }
 

@@ -82,8 +82,23 @@ TEST_F(Views, WriteJsonThatNamesTheGenerator) {
   EXPECT_EQ(json["generator"], "workspace");
 }
 
+TEST_F(Views, FollowTheConfiguredGeneratorIfNoneIsAskedFor) {
+  const ProcessResult result = views({"--set", "candidates.generator=workspace", "--count", "7"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("7 views drawn in the mapped volume"), std::string::npos) << result.out;
+  ASSERT_EQ(views({"--set", "candidates.generator=workspace", "--generator", "icosphere"}).code, 0);
+  EXPECT_EQ(rows().size(), 320u);
+  EXPECT_NE(views({"--generator", "workspace", "--count", "1"}).out.find("1 view drawn"), std::string::npos);
+}
+
+TEST_F(Views, ABoxOutsideTheMapIsRefused) {
+  expectRefused(views({"--generator", "icosphere", "--set", "octree.object_min_m=[50,50,50]", "--set",
+                       "octree.object_max_m=[51,51,51]"}),
+                {"octree.object_min_m", "outside the map"});
+}
+
 TEST_F(Views, OfContoursNeedATsdfAndTakeNoCount) {
-  expectRefused(views({}), {"map.ot", "octree", "TSDF"});
+  expectRefused(views({}), {"map.ot", "octree", "TSDF", "--generator icosphere"});
   expectRefused(views({"--count", "20"}), {"--count", "contour"});
 }
 

@@ -94,9 +94,40 @@ TEST_F(OctreeRun, EachStepHasThePicturesOfItsPlanner) {
                           "both-step02-states.png", "both-step02-utility.png", "both-step02-views.png"));
 }
 
-TEST_F(OctreeRun, ProductOfTheOtherPlannerIsAPictureThatSaysSo) {
-  EXPECT_EQ(takeSnapshots(runPath("contour"), request("c.png", {"utility"})).size(), 1u);
-  EXPECT_EQ(takeSnapshots(runPath("octree"), request("d.png", {"contours"})).size(), 1u);
+TEST_F(OctreeRun, ProductsOfTheOtherPlannerAreRefused) {
+  const auto messageFor = [&](const std::string& run, const std::string& recipe, std::optional<int> step) {
+    SnapshotRequest wanted = request("foreign.png", {recipe});
+    wanted.step = step;
+    return messageOf([&] { takeSnapshots(runPath(run), wanted); });
+  };
+  for (const char* recipe : {"octree", "rays", "utility"})
+    EXPECT_THAT(messageFor("contour", recipe, 1),
+                testing::AllOf(HasSubstr(std::string("recipe '") + recipe + "'"), HasSubstr("step 1"),
+                               HasSubstr("contour planner; try scene, states, contours")));
+  for (const char* recipe : {"contours", "segments"})
+    EXPECT_THAT(messageFor("octree", recipe, 1),
+                HasSubstr("hierarchical planner; try scene, states, octree"));
+  EXPECT_THAT(messageFor("contour", "utility", std::nullopt), HasSubstr("no step has anything of it"));
+  EXPECT_FALSE(fs::exists(folder_ / "foreign.png"));
+  // Of a run of both planners the steps that have it are drawn; an overview is of either.
+  EXPECT_THAT(namesIn(takeSnapshots(runPath("both"), request("some", {"utility"}))),
+              testing::Contains("both-step02-utility.png"));
+  EXPECT_EQ(messageFor("octree", "overview", 1), "no error");
+}
+
+TEST_F(OctreeRun, ViewIdIsForPicturesOfRays) {
+  SnapshotRequest wanted = request("rays17.png", {"utility"});
+  wanted.style = {"view_id=17"};
+  EXPECT_THAT(messageOf([&] { takeSnapshots(runPath("octree"), wanted); }),
+              testing::AllOf(HasSubstr("view_id"), HasSubstr("'utility'"), HasSubstr("try recipe rays")));
+  wanted.recipes = {"rays"};
+  EXPECT_EQ(takeSnapshots(runPath("octree"), wanted).size(), 1u);
+}
+
+TEST_F(OctreeRun, AFileIsWrittenWhereAFolderIs) {
+  EXPECT_THAT(messageOf([&] { takeSnapshots(runPath("octree"), request("none/a.png", {"states"})); }),
+              testing::AllOf(HasSubstr("none/a.png"), HasSubstr("there is no folder")));
+  EXPECT_FALSE(fs::exists(folder_ / "none"));
 }
 
 TEST_F(OctreeRun, StatesComeFromTheMapOfTheStep) {
@@ -156,6 +187,42 @@ TEST_F(OctreeRun, RunsOfDifferentScenesAreNotCompared) {
   wanted.output = (folder_ / "x.png").string();
   EXPECT_THAT(messageOf([&] { takeComparison(runPath("octree"), runPath("other"), wanted); }),
               HasSubstr("compare runs of one scene"));
+}
+
+TEST(Comparison, NamesWhatElseDiffers) {
+  RunHeader a, b;
+  a.planner = b.planner = "contour";
+  a.volume.voxel_size_m = b.volume.voxel_size_m = 0.005;
+  a.seed = b.seed = 1;
+  EXPECT_THAT(differencesOf({a, b}), testing::IsEmpty());
+  b.planner = "hierarchical";
+  b.octree.emplace().map.voxel_size_m = 0.01;
+  b.seed = 7;
+  EXPECT_THAT(differencesOf({a, b}),
+              testing::ElementsAre("measured on different maps (run 1: TSDF, run 2: octree)",
+                                   "voxel sizes differ (run 1: 5 mm, run 2: 1 cm)",
+                                   "seeds differ (run 1: 1, run 2: 7)"));
+  b.planner = "contour,hierarchical";  // keeps the TSDF too
+  EXPECT_THAT(differencesOf({a, b}), testing::ElementsAre("seeds differ (run 1: 1, run 2: 7)"));
+}
+
+TEST(Comparison, OneRecordingIsOneSceneHoweverItsPathIsSpelt) {
+  RunHeader a, b;
+  a.replay = b.replay = true;
+  a.input = "recordings/tray";
+  for (const std::string& same :
+       {std::string("./recordings/tray/"), (fs::current_path() / "recordings/tray").string()}) {
+    b.input = same;
+    EXPECT_NO_THROW(requireOneScene({"a", "b"}, {a, b})) << same;
+  }
+  b.input = "recordings/room";
+  EXPECT_THROW(requireOneScene({"a", "b"}, {a, b}), InputError);
+  b.input = a.input;  // the scene of that name was changed
+  a.truth.vertices = b.truth.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  a.truth.triangles = b.truth.triangles = {{0, 1, 2}};
+  EXPECT_NO_THROW(requireOneScene({"a", "b"}, {a, b}));
+  b.truth.vertices[1].x() = 2;
+  EXPECT_THROW(requireOneScene({"a", "b"}, {a, b}), InputError);
 }
 
 TEST(Recipes, FitTheirPlanner) {

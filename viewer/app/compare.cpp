@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "io/csv_table.h"
 #include "io/run_file.h"
 #include "io/text_file.h"
 #include "snapshots/comparison.h"
@@ -33,15 +33,8 @@ struct ComparedStep {
   std::optional<double> path_m;  ///< empty: no view
 };
 
-/// Edge of the voxels that the metrics of a run count.
-double metricVoxel_m(const RunHeader& header) {
-  const auto planners = plannersFromText(header.planner);
-  const bool octree_alone = std::ranges::all_of(planners, usesOctree);
-  return octree_alone && header.octree ? header.octree->map.voxel_size_m : header.volume.voxel_size_m;
-}
-
 ComparedStep compared(const RunHeader& header, const StepRecord& record, int step, std::size_t run) {
-  const double edge_dm = metricVoxel_m(header) * 10.0, voxel_dm3 = edge_dm * edge_dm * edge_dm;
+  const double edge_dm = measuredMap(header).voxel_size_m * 10.0, voxel_dm3 = edge_dm * edge_dm * edge_dm;
   const auto volume = [&](const std::optional<std::uint64_t>& voxels) {
     return voxels ? std::optional(static_cast<double>(*voxels) * voxel_dm3) : std::nullopt;
   };
@@ -60,19 +53,15 @@ ComparedStep compared(const RunHeader& header, const StepRecord& record, int ste
   return row;
 }
 
-/// Runs of one scene: their geometry must be the same, their configuration need not.
-void requireOneScene(const std::vector<std::string>& paths, const std::vector<RunHeader>& headers) {
-  for (std::size_t n = 1; n < headers.size(); ++n) {
-    const TriangleMesh &a = headers[0].truth, &b = headers[n].truth;
-    if (headers[n].input != headers[0].input || a.vertices != b.vertices || a.triangles != b.triangles)
-      throw InputError(paths[n], fmt::format("is about {}, but {} about {}; compare runs of one scene",
-                                             headers[n].input, paths[0], headers[0].input));
-  }
-}
-
-std::vector<ComparedStep> compareRuns(const std::vector<std::string>& paths) {
-  std::vector<RunHeader> headers;
+struct Comparison {
   std::vector<ComparedStep> rows;
+  std::vector<std::string> notes;  ///< differencesOf()
+};
+
+Comparison compareRuns(const std::vector<std::string>& paths) {
+  std::vector<RunHeader> headers;
+  Comparison result;
+  std::vector<ComparedStep>& rows = result.rows;
   for (const std::string& path : paths) {
     const RunReader run(path);
     headers.push_back(run.header());
@@ -84,7 +73,8 @@ std::vector<ComparedStep> compareRuns(const std::vector<std::string>& paths) {
   }
   requireOneScene(paths, headers);
   std::ranges::stable_sort(rows, {}, [](const ComparedStep& r) { return std::pair(r.step, r.run); });
-  return rows;
+  result.notes = differencesOf(headers);
+  return result;
 }
 
 template <class T>
@@ -92,16 +82,20 @@ std::string cell(const std::optional<T>& value, fmt::format_string<T> format) {
   return value ? fmt::format(format, T{*value}) : "";
 }
 
-std::string csv(const std::vector<ComparedStep>& rows, const std::vector<std::string>& paths) {
-  std::string text =
-      "step,run,planner,coverage,unknown_near_objects_dm3,unknown_in_boxes_dm3,nbv_s,rays,path_m\n";
+CsvTable csv(const std::vector<ComparedStep>& rows, const std::vector<std::string>& paths) {
+  CsvTable table("step,run,planner,coverage,unknown_near_objects_dm3,unknown_in_boxes_dm3,nbv_s,rays,path_m");
   for (const ComparedStep& r : rows)
-    text += fmt::format("{},{},{},{},{},{},{},{},{}\n", r.step, paths[r.run],
-                        r.planner.find(',') == std::string::npos ? r.planner : '"' + r.planner + '"',
-                        cell(r.coverage, "{}"), cell(r.unknown_near_objects_dm3, "{}"),
-                        cell(r.unknown_in_boxes_dm3, "{}"), cell(r.nbv_s, "{}"), cell(r.rays, "{}"),
-                        cell(r.path_m, "{}"));
-  return text;
+    table.cell(r.step)
+        .cell(paths[r.run])
+        .cell(r.planner)
+        .cell(r.coverage)
+        .cell(r.unknown_near_objects_dm3)
+        .cell(r.unknown_in_boxes_dm3)
+        .cell(r.nbv_s)
+        .cell(r.rays)
+        .cell(r.path_m)
+        .endRow();
+  return table;
 }
 
 std::string table(const std::vector<ComparedStep>& rows) {
@@ -115,10 +109,10 @@ std::string table(const std::vector<ComparedStep>& rows) {
   return text;
 }
 
-Json toJson(const std::vector<ComparedStep>& rows, const std::vector<std::string>& paths) {
+Json toJson(const Comparison& comparison, const std::vector<std::string>& paths) {
   const auto orNull = [](const auto& value) { return value ? Json(*value) : Json(nullptr); };
   Json all = Json::array();
-  for (const ComparedStep& r : rows)
+  for (const ComparedStep& r : comparison.rows)
     all.push_back({{"step", r.step},
                    {"run", paths[r.run]},
                    {"planner", r.planner},
@@ -128,7 +122,7 @@ Json toJson(const std::vector<ComparedStep>& rows, const std::vector<std::string
                    {"nbv_s", orNull(r.nbv_s)},
                    {"rays", orNull(r.rays)},
                    {"path_m", orNull(r.path_m)}});
-  return {{"runs", paths}, {"steps", all}};
+  return {{"runs", paths}, {"notes", comparison.notes}, {"steps", all}};
 }
 
 void takePicture(const GlobalOptions& global, const CompareOptions& options) {
@@ -140,26 +134,38 @@ void takePicture(const GlobalOptions& global, const CompareOptions& options) {
   for (const auto& file : files) say(global, file.string());
 }
 
-int compare(const GlobalOptions& global, const CompareOptions& options) {
-  std::vector<std::pair<std::string, std::string>> files = {
-      {"-o", options.output}, {"--json", global.json}, {"--picture", options.picture}};
-  for (const std::string& run : options.runs) files.emplace_back("RUN", run);
+/// What cannot be compared or written is said before the work.
+void checkOptions(const GlobalOptions& global, const CompareOptions& options) {
+  std::vector<std::pair<std::string, std::string>> files;
+  for (const std::string& run : options.runs) {
+    if (std::ranges::any_of(files, [&](const auto& other) { return sameFile(other.second, run); }))
+      throw InputError(run, "is named twice; compare different runs");
+    files.emplace_back("RUN", run);
+  }
+  files.emplace_back("-o", options.output);
+  files.emplace_back("--json", global.json);
+  files.emplace_back("--picture", options.picture);
   requireDistinctFiles(files);
-  if (!options.picture.empty() && options.runs.size() != 2)
+  if (!options.output.empty() && options.output != "-") requireCreatable(options.output);
+  if (options.picture.empty()) return;
+  if (options.runs.size() != 2)
     throw InputError("--picture",
                      fmt::format("shows two runs side by side; {} were given", options.runs.size()));
-  const std::vector<ComparedStep> rows = compareRuns(options.runs);
+  requireEnding("--picture", options.picture, {".png"});
+  requireCreatable(options.picture);
+}
+
+int compare(const GlobalOptions& global, const CompareOptions& options) {
+  checkOptions(global, options);
+  const Comparison comparison = compareRuns(options.runs);
   if (options.output != "-" && global.json != "-") {
     for (std::size_t n = 0; n < options.runs.size(); ++n)
       say(global, fmt::format("run {}: {}", n + 1, options.runs[n]));
-    say(global, table(rows));
+    say(global, table(comparison.rows));
+    for (const std::string& note : comparison.notes) say(global, "note: " + note);
   }
-  const std::string text = csv(rows, options.runs);
-  if (options.output == "-")
-    std::fputs(text.c_str(), stdout);
-  else if (!options.output.empty())
-    saveFile(options.output, text);
-  writeJson(global.json, toJson(rows, options.runs));
+  if (!options.output.empty()) csv(comparison.rows, options.runs).save(options.output);
+  writeJson(global.json, toJson(comparison, options.runs));
   if (!options.picture.empty()) takePicture(global, options);
   return 0;
 }

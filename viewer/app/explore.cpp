@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -11,6 +12,7 @@
 #include "snapshots/snapshot.h"
 #include "viewer/app/command.h"
 #include "viewer/app/console.h"
+#include "viewer/app/counted.h"
 #include "viewer/app/inputs.h"
 #include "viewer/app/step_text.h"
 
@@ -62,11 +64,29 @@ void announce(const GlobalOptions& global, const ExploreOptions& options, const 
         fmt::format("gains: first-hit unknown rays at 1/{} of the resolution x {}, threshold {:g} rays",
                     gain.reduction, gain.reduction * gain.reduction, gain.gain_threshold));
   const HierarchicalPlannerConfig& rays = config.hierarchical;
+  const bool coarse_first =
+      std::ranges::find(config.planners, PlannerKind::Hierarchical) != config.planners.end();
+  const std::string unit = rays.count == GainCount::Voxels ? "voxels" : "rays";
   if (config.needsOctree())
     say(global,
-        fmt::format("utility: {} coarse levels, {:g} rays of known surface wanted, stops below {:g} rays of "
-                    "unknown",
-                    rays.coarse_levels, rays.min_occupied, rays.stop_gain));
+        fmt::format(
+            "utility: {}, {} wanted, stops below {:g} {} of unknown",
+            coarse_first ? counted(rays.coarse_levels, "coarse level") : "every ray at the finest voxels",
+            rays.min_overlap > 0.0 ? fmt::format("{:g} % of known surface in view", rays.min_overlap * 100.0)
+                                   : fmt::format("{:g} {} of known surface", rays.min_occupied, unit),
+            rays.stop_gain, unit));
+}
+
+/// What the planners could not work with is said before a run file is made.
+void checkMaps(const ExplorationConfig& config, const Settings& settings) {
+  if (config.needsVolume()) requireCollisionCell(settings, config.volume.voxel_size_m);
+  if (!config.needsOctree()) return;
+  requireCollisionCell(settings, config.octree.voxel_size_m);
+  if (!overlap(config.objectBox(), config.volume.bounds()))
+    warn(
+        "octree.object_min_m, octree.object_max_m: the object's box lies outside the mapped volume; nothing "
+        "in it "
+        "can be seen");
 }
 
 /// Pictures of every step, from the run file alone.
@@ -75,7 +95,7 @@ void takePictures(const GlobalOptions& global, const ExploreOptions& options, Co
   request.output = options.snapshots;
   const auto files = takeSnapshots(options.run, request, console.control());
   console.clear();
-  say(global, fmt::format("{} pictures in {}", files.size(), options.snapshots));
+  say(global, fmt::format("{} in {}", counted(files.size(), "picture"), options.snapshots));
 }
 
 /// What cannot be written or drawn is said before the work.
@@ -99,6 +119,7 @@ int explore(const GlobalOptions& global, ExploreOptions options) {
   checkOutputs(global, options);
   ExplorationInput input = openExplorationInput(global, options.input, options.planner, options.steps);
   if (options.run.empty()) options.run = input.name + ".vantage";
+  checkMaps(input.settings.exploration, input.settings);
   Console console(global);
   announce(global, options, input.settings);
 
@@ -117,17 +138,18 @@ int explore(const GlobalOptions& global, ExploreOptions options) {
     writer.write(*record);
     json.add(*record);
     console.clear();
-    say(global, stepText(*record));
+    say(global, stepText(*record, input.settings.exploration.hierarchical.stop_gain));
   });
   const ExplorationResult result = explorer.run(console.control());
   writer.finish(result.stop_reason);
   json.finish(result.stop_reason);
   console.clear();
-  say(global,
-      fmt::format("{} after {} steps; recorded in {}", result.stop_reason, result.steps, options.run));
+  say(global, fmt::format("{} after {}; recorded in {}", result.stop_reason, counted(result.steps, "step"),
+                          options.run));
   if (!global.json.empty()) json.write(global.json);
   if (console.interrupted())
-    throw Interrupted(fmt::format("{}: interrupted; {} finished steps are kept", options.run, result.steps));
+    throw Interrupted(
+        fmt::format("{}: interrupted; {} kept", options.run, counted(result.steps, "finished step")));
   if (!options.snapshots.empty()) takePictures(global, options, console);
   return 0;
 }

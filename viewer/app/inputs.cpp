@@ -108,14 +108,16 @@ int findStep(const RunReader& run, const RunMap& map) {
   return step;
 }
 
-[[noreturn]] void refuseKind(const std::string& map, MapNeed need) {
-  if (need == MapNeed::Tsdf)
-    throw InputError(map,
-                     "is an octree, and this command works on a TSDF; give a .vti file (vantage fuse DATASET "
-                     "-o MAP.vti) or a run of the contour planner");
+[[noreturn]] void refuseOctree(const std::string& map) {
   throw InputError(map,
-                   "is a TSDF, and this command works on an octree; give a .bt or .ot file (vantage fuse "
-                   "DATASET -o MAP.bt) or a run of the hierarchical planner");
+                   "is an octree, and this command works on a TSDF; give a .vti file (vantage fuse DATASET "
+                   "-o MAP.vti) or a run of the contour planner");
+}
+
+/// What an earlier step means for the one that is loaded.
+void addEarlier(LoadedMap& loaded, const StepRecord& record) {
+  loaded.exclusions.add(record, loaded.settings.exploration.contour.gain);
+  for (const ScanPose& pose : record.scan) loaded.frames_taken.insert(pose.frame);
 }
 
 LoadedMap loadRunMap(const GlobalOptions& global, const RunMap& map, MapNeed need) {
@@ -125,12 +127,11 @@ LoadedMap loadRunMap(const GlobalOptions& global, const RunMap& map, MapNeed nee
   applyToml(loaded.settings, run.header().config_toml, map.path);
   const bool keeps_volume = loaded.settings.exploration.needsVolume(),
              keeps_octree = run.header().octree.has_value();
-  if (need == MapNeed::Tsdf ? !keeps_volume : need == MapNeed::Octree && !keeps_octree)
-    refuseKind(map.path, need);
+  if (need == MapNeed::Tsdf && !keeps_volume) refuseOctree(map.path);
   applyCommandLine(loaded.settings, global);
   loaded.settings.validate();
   const int step = findStep(run, map);
-  if (keeps_volume && need != MapNeed::Octree) {
+  if (keeps_volume) {
     loaded.volume = TsdfVolume(run.header().volume);
     run.advanceVolume(loaded.volume, 0, step);
   }
@@ -140,10 +141,11 @@ LoadedMap loadRunMap(const GlobalOptions& global, const RunMap& map, MapNeed nee
   }
   loaded.step = step;
   for (const int earlier : run.steps())
-    if (earlier < step)
-      loaded.exclusions.add(run.step(earlier, RunDetail::NoVolume), loaded.settings.exploration.contour.gain);
+    if (earlier < step) addEarlier(loaded, run.step(earlier, RunDetail::NoVolume));
   loaded.record =
       step == run.closingStep() ? run.closing(RunDetail::NoVolume) : run.step(step, RunDetail::NoVolume);
+  for (const ScanPose& pose : loaded.record->scan) loaded.frames_taken.insert(pose.frame);
+  if (run.header().replay) loaded.recording = run.header().input;
   return loaded;
 }
 
@@ -151,6 +153,7 @@ LoadedMap loadRunMap(const GlobalOptions& global, const RunMap& map, MapNeed nee
 
 ExplorationInput openExplorationInput(const GlobalOptions& global, const std::string& name,
                                       const std::string& planner, std::optional<int> steps) {
+  requireScene(name);
   GlobalOptions options = global;  // --planner and --steps are short for settings and beat them
   if (!planner.empty()) options.assignments.push_back(fmt::format("exploration.planner={}", planner));
   if (steps) options.assignments.push_back(fmt::format("exploration.steps={}", *steps));
@@ -172,6 +175,7 @@ Settings sceneSettings(const GlobalOptions& global, const std::string& scene) {
     Dataset dataset = openDataset(scene);
     return datasetSettings(global, dataset);
   }
+  requireScene(scene);
   if (!scene.empty()) applyScene(settings, loadScene(scene));
   applyCommandLine(settings, global);
   settings.validate();
@@ -195,7 +199,7 @@ LoadedMap loadMap(const GlobalOptions& global, const std::string& map, MapNeed n
   loaded.settings = commandSettings(global);
   const std::string ending = std::filesystem::path(map).extension().string();
   const bool is_octree = ending == ".bt" || ending == ".ot";
-  if (is_octree ? need == MapNeed::Tsdf : need == MapNeed::Octree) refuseKind(map, need);
+  if (is_octree && need == MapNeed::Tsdf) refuseOctree(map);
   if (is_octree) {
     loaded.octree = readOctree(map, loaded.settings.exploration.octree.occupancy);
     return loaded;
@@ -206,17 +210,87 @@ LoadedMap loadMap(const GlobalOptions& global, const std::string& map, MapNeed n
   return loaded;
 }
 
-void requireDistinctFiles(const std::vector<std::pair<std::string, std::string>>& files) {
+Box mappedBox(const LoadedMap& map) {
+  if (map.record) return map.settings.exploration.volume.bounds();
+  return map.hasVolume() ? map.volume.geometry().bounds() : map.octree->geometry().bounds();
+}
+
+bool overlap(const Box& a, const Box& b) {
+  return (a.min().array() < b.max().array()).all() && (b.min().array() < a.max().array()).all();
+}
+
+Box objectBoxOf(const LoadedMap& map) {
+  const ExplorationConfig& exploration = map.settings.exploration;
+  const bool configured = exploration.octree.object_box.volume() > 0.0;
+  const Box box = map.octree && !configured ? map.octree->objectBox() : exploration.objectBox();
+  const Box mapped = mappedBox(map);
+  if (overlap(box, mapped)) return box;
+  const auto text = [](const Box& b) {
+    return fmt::format("({:g}, {:g}, {:g}) .. ({:g}, {:g}, {:g}) m", b.min().x(), b.min().y(), b.min().z(),
+                       b.max().x(), b.max().y(), b.max().z());
+  };
+  throw InputError("octree.object_min_m, octree.object_max_m",
+                   fmt::format("the object's box {} lies outside the map {}; give one inside it (--set "
+                               "octree.object_min_m=[x,y,z] --set octree.object_max_m=[x,y,z])",
+                               text(box), text(mapped)));
+}
+
+std::vector<ScanPose> posesLeft(const LoadedMap& map) {
+  std::vector<ScanPose> left;
+  if (map.recording.empty()) return left;
+  if (map.record->utilities)
+    for (const ViewUtility& view : map.record->utilities->views)
+      if (view.frame >= 0) left.push_back({view.T_world_camera, view.frame});
+  if (!left.empty()) return left;
+  if (!std::filesystem::is_directory(map.recording))
+    throw InputError(
+        map.recording,
+        "the recording of this run is not here, and without it nobody knows which poses are left; "
+        "put it back, or plan without: --set candidates.recorded=false --set "
+        "dataset.serve_distance_m=0");
+  Dataset dataset = openDataset(map.recording);
+  placeDataset(dataset, map.settings.T_world_dataset());
+  for (const DatasetFrame& frame : dataset.frames)
+    if (!map.frames_taken.contains(frame.number)) left.push_back({frame.T_world_camera, frame.number});
+  return left;
+}
+
+void requireCollisionCell(const Settings& settings, double voxel_size_m) {
+  const double cell_m = settings.free_flyer.cell_m;
+  if (cell_m >= voxel_size_m) return;
+  throw InputError(
+      fmt::format("robot.cell_m = {:g}", cell_m),
+      fmt::format("a collision cell of {:g} m is smaller than the map's voxels of {:g} m; allowed: "
+                  "{:g} .. 10 (--set robot.cell_m={:g})",
+                  cell_m, voxel_size_m, voxel_size_m, voxel_size_m));
+}
+
+bool sameFile(const std::string& a, const std::string& b) {
   const auto place = [](const std::string& path) {
     std::error_code error;
-    const auto absolute = std::filesystem::weakly_canonical(path.substr(0, path.find('#')), error);
+    const auto absolute = std::filesystem::weakly_canonical(
+        std::filesystem::absolute(path.substr(0, path.find('#')), error), error);
     return path == "-" || error ? path : absolute.string();
   };
+  return place(a) == place(b);
+}
+
+void requireDistinctFiles(const std::vector<std::pair<std::string, std::string>>& files) {
   for (std::size_t a = 0; a < files.size(); ++a)
     for (std::size_t b = a + 1; b < files.size(); ++b)
-      if (!files[a].second.empty() && place(files[a].second) == place(files[b].second))
+      if (!files[a].second.empty() && sameFile(files[a].second, files[b].second))
         throw InputError(files[b].first + " " + files[b].second,
                          "is the same file as " + files[a].first + "; choose another name");
+}
+
+void requireScene(const std::string& name) {
+  const std::string ending = std::filesystem::path(name.substr(0, name.find('#'))).extension().string();
+  for (const char* other : {".bt", ".ot", ".vti", ".vantage", ".pcd", ".ply", ".obj", ".csv", ".png"})
+    if (ending == other && !std::filesystem::is_directory(name))
+      throw InputError(
+          name, fmt::format("is a {} file, and a scene is wanted; give the name of one (vantage scenes), a "
+                            "scene's .toml, or the folder of a recording",
+                            other));
 }
 
 void requireEnding(const std::string& option, const std::string& path,

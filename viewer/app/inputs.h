@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,7 +46,7 @@ Settings sceneSettings(const GlobalOptions& global, const std::string& scene);
 Settings datasetSettings(const GlobalOptions& global, Dataset& dataset);
 
 /// What a command works on.
-enum class MapNeed { Tsdf, Octree, Either };
+enum class MapNeed { Tsdf, Either };
 
 /// A map from a file and what is known about where it came from.
 struct LoadedMap {
@@ -55,6 +56,8 @@ struct LoadedMap {
   std::optional<StepRecord> record;  ///< of RUN#STEP
   int step = 1;                      ///< of RUN#STEP
   Exclusions exclusions;             ///< what the run's earlier steps left out
+  std::string recording;             ///< of a replay: folder of the data set
+  std::set<int> frames_taken;        ///< of a replay: numbers of the frames that were served up to the step
   Settings settings;                 ///< commandSettings(), over the run's own configuration for RUN#STEP
 };
 
@@ -62,9 +65,32 @@ struct LoadedMap {
 /// Warnings are printed. \throws InputError, also for a map of the kind that is not needed.
 LoadedMap loadMap(const GlobalOptions& global, const std::string& map, MapNeed need = MapNeed::Tsdf);
 
+/// Space in which the planners of a map work: the mapped volume of a run, else all that the file covers.
+Box mappedBox(const LoadedMap& map);
+
+/// The object's box: octree.object_min_m and octree.object_max_m, else that of the octree, else the
+/// workspace. \throws InputError if it lies outside the map.
+Box objectBoxOf(const LoadedMap& map);
+
+/// Boxes that share some volume.
+bool overlap(const Box& a, const Box& b);
+
+/// Recorded poses whose frames no scan up to the step has taken, in recorded order; none unless the map is of
+/// a replay. \throws InputError if the recording is gone and the step does not tell.
+std::vector<ScanPose> posesLeft(const LoadedMap& map);
+
+/// Refuses a collision cell that is smaller than the voxels of the map. \throws InputError
+void requireCollisionCell(const Settings& settings, double voxel_size_m);
+
+/// Two spellings of one path; a step of a run is of the run's file.
+bool sameFile(const std::string& a, const std::string& b);
+
 /// Refuses outputs that would overwrite an input or each other. Pairs of a name for messages and a path;
 /// empty paths do not count. \throws InputError
 void requireDistinctFiles(const std::vector<std::pair<std::string, std::string>>& files);
+
+/// Refuses what is no scene by its name: maps, runs, clouds, tables. \throws InputError
+void requireScene(const std::string& name);
 
 /// Refuses a file name without one of these endings. \throws InputError
 void requireEnding(const std::string& option, const std::string& path,

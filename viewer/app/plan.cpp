@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
 
@@ -20,21 +21,37 @@ struct PlanOptions {
   std::string map, planner, output;
 };
 
+/// Recorded data: a frame that is left was taken near enough (evaluation.md, A3).
+bool servable(const Pose& pose, const std::vector<ScanPose>& left, const ExplorationConfig& config) {
+  return std::ranges::any_of(left, [&](const ScanPose& frame) {
+    return (frame.T_world_camera.translation() - pose.translation()).norm() <= config.serve_distance_m &&
+           angleBetween(frame.T_world_camera, pose) <= config.serve_angle_rad;
+  });
+}
+
 /// Reachability without a robot: from the pose of a recorded step a path is planned; for a map alone the
-/// sensor only has to fit. Where verdicts are only reported, the last one is kept in `reported`.
+/// sensor only has to fit. A replay offers what its recording can serve. Where verdicts are only reported,
+/// the last one is kept in `reported`.
 ReachPose makeReach(const CollisionGrid& grid, const LoadedMap& map, MotionPlan& reported) {
   std::optional<Pose> start;
   if (map.record && !map.record->scan.empty()) start = map.record->scan.back().T_world_camera;
-  return [&grid, &reported, start, step = map.step, flyer = map.settings.free_flyer,
-          seed = map.settings.exploration.seed, enforce = map.settings.exploration.enforce_reachability,
-          tried = std::uint64_t{0}](const Pose& pose) mutable {
-    MotionPlan plan;
-    if (start)
-      plan = planPath(grid, *start, pose, flyer, pathSeed(seed, step, tried++));
-    else
-      plan.verdict = checkPosition(grid, pose.translation(), flyer);
-    return judged(std::move(plan), enforce, reported);
-  };
+  const ExplorationConfig& config = map.settings.exploration;
+  const bool serve = !map.recording.empty() && config.serve_distance_m > 0.0;
+  return
+      [&grid, &reported, &config, start, step = map.step, flyer = map.settings.free_flyer, seed = config.seed,
+       enforce = config.enforce_reachability, serve, left = serve ? posesLeft(map) : std::vector<ScanPose>(),
+       tried = std::uint64_t{0}](const Pose& pose) mutable {
+        MotionPlan plan;
+        if (serve && !servable(pose, left, config)) {
+          plan.verdict = Reachability::NoFrame;
+          return plan;
+        }
+        if (start)
+          plan = planPath(grid, *start, pose, flyer, pathSeed(seed, step, tried++));
+        else
+          plan.verdict = checkPosition(grid, pose.translation(), flyer);
+        return judged(std::move(plan), enforce, reported);
+      };
 }
 
 std::vector<PlanRow> rankedViews(const StepRecord& record, const ContourViewConfig& views) {
@@ -79,6 +96,7 @@ void planContour(const LoadedMap& map, PlannerKind kind, StepRecord& record, Mot
   const ExplorationConfig& config = map.settings.exploration;
   ContourPlannerConfig planner = config.contour;
   planner.segment_by_segment = kind == PlannerKind::Contour;
+  requireCollisionCell(map.settings, map.volume.geometry().voxel_size_m);
   const StateGrid states = makeStateGrid(map.volume);
   const CollisionGrid collision(states, map.settings.free_flyer.cell_m,
                                 map.settings.free_flyer.body_radius_m);
@@ -100,24 +118,32 @@ void planOctree(const LoadedMap& map, PlannerKind kind, StepRecord& record, Moti
   if (kind == PlannerKind::Uniform) planner.coarse_levels = 0;
   const double voxel_m = map.octree->geometry().voxel_size_m;
   requireInRange("rays.coarse_levels", planner.coarse_levels, 0, maxCoarseLevels(planner.sensor, voxel_m));
+  requireCollisionCell(map.settings, voxel_m);
+  const Box object_box = objectBoxOf(map), workspace = mappedBox(map);
   const StatePyramid pyramid(*map.octree, planner.coarse_levels);
   const RayTree tree(planner.sensor, voxel_m, planner.coarse_levels);
   const CollisionGrid collision(pyramid.finest(), map.settings.free_flyer.cell_m,
                                 map.settings.free_flyer.body_radius_m);
-  const Box object_box = map.octree->objectBox(), bounds = pyramid.finest().geometry().bounds();
-  const bool recorded = map.record && !map.record->scan.empty();
-  const Pose current = recorded ? map.record->scan.back().T_world_camera
-                                : makePose(object_box.center(), Eigen::Quaterniond::Identity());
-  if (!recorded) planner.rotation_weight_m_per_rad = 0.0;  // no current pose: turning costs nothing
+  const bool on_step = map.record && !map.record->scan.empty();
+  const Pose current = on_step ? map.record->scan.back().T_world_camera
+                               : makePose(object_box.center(), Eigen::Quaterniond::Identity());
+  if (!on_step) planner.rotation_weight_m_per_rad = 0.0;  // no current pose: turning costs nothing
+  const std::vector<ScanPose> recorded =
+      config.recorded_candidates ? posesLeft(map) : std::vector<ScanPose>();
   const PlanUtilityInput input{.pyramid = pyramid,
                                .tree = tree,
                                .object_box = object_box,
-                               .workspace = bounds,
+                               .workspace = workspace,
+                               .recorded = recorded,
                                .current = current,
                                .config = planner,
                                .executed = map.exclusions.executed,
                                .seed = pathSeed(config.seed, record.step, 0)};
-  record.metrics.unknown_voxels = pyramid.finest().count(VoxelState::Unknown, object_box);
+  const StateGrid& states = pyramid.finest();
+  record.metrics.unknown_voxels =
+      states.count(VoxelState::Unknown, map.record ? config.workspace : workspace);
+  record.box = std::make_shared<BoxMetrics>(BoxMetrics{states.count(VoxelState::Unknown, object_box),
+                                                       states.count(VoxelState::Occupied, object_box)});
   planUtility(record, input, makeReach(collision, map, reported), publish, control);
 }
 
@@ -125,6 +151,9 @@ int plan(const GlobalOptions& global, const PlanOptions& options) {
   requireDistinctFiles({{"MAP", options.map}, {"-o", options.output}, {"--json", global.json}});
   LoadedMap map = loadMap(global, options.map, MapNeed::Either);
   Settings& settings = map.settings;
+  if (options.planner.find(',') != std::string::npos)
+    throw InputError("--planner " + options.planner,
+                     "names several planners, and one view is planned; name one of them");
   if (!options.planner.empty())
     applyAssignment(settings, fmt::format("exploration.planner={}", options.planner), "--planner");
   settings.validate();
@@ -147,7 +176,8 @@ int plan(const GlobalOptions& global, const PlanOptions& options) {
   if (!settings.exploration.enforce_reachability) reportMotion(record, reported);
   record.stage = Stage::Done;
   console.clear();
-  if (options.output != "-" && global.json != "-") say(global, stepText(record));
+  if (options.output != "-" && global.json != "-")
+    say(global, stepText(record, settings.exploration.hierarchical.stop_gain));
   if (!options.output.empty()) {
     if (record.utilities)
       writeUtilities(options.output, *record.utilities);

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
+
+#include "viewer/app/counted.h"
 
 namespace vantage::app {
 namespace {
@@ -21,9 +24,9 @@ StageSummary summarise(const StepRecord& r) {
   const Timings& t = r.timings;
   switch (r.stage) {
     case Stage::Sense:
-      return {fmt::format("{} frames", r.scan.size()), t.sense};
+      return {counted(r.scan.size(), "frame"), t.sense};
     case Stage::Fuse:
-      return {fmt::format("{} bricks changed", changedBricks(r)), t.fuse};
+      return {counted(changedBricks(r), "brick") + " changed", t.fuse};
     case Stage::Contours:
       return {
           fmt::format("{} contour voxels, {} points", r.contours->voxels.size(), r.contours->points.size()),
@@ -59,31 +62,51 @@ std::string mapText(const StepRecord& r) {
   return text;
 }
 
-/// The choice of the hierarchical planner.
-std::string utilityText(const StepRecord& r) {
-  const UtilitySearch& u = *r.utilities;
-  const std::string rejected =
-      fmt::format("{} of {} views rejected by position, {} by registration", u.rejected_position,
-                  u.counts.poses_generated, u.rejected_registration);
-  const ViewUtility* view = chosenUtility(u);
-  if (!view)
+/// "140 of 320 views rejected by position, 33 by registration, 2 taken before"
+std::string rejectedText(const UtilitySearch& u) {
+  std::string text = fmt::format("{} of {} views rejected by position, {} by registration",
+                                 u.rejected_position, u.counts.poses_generated, u.rejected_registration);
+  if (u.counts.poses_executed_before > 0)
+    text += fmt::format(", {} taken before", u.counts.poses_executed_before);
+  return text;
+}
+
+/// Why the hierarchical planner chose none.
+std::string noUtilityText(const UtilitySearch& u, double stop_gain) {
+  const SearchEnd end = endOf(u, stop_gain);
+  if (end == SearchEnd::NoSurvivor) return "no view: none is left; " + rejectedText(u);
+  if (end == SearchEnd::LittleUnknown || u.counts.poses_unreachable == 0)
     return fmt::format(
-        "no view: the best of the others sees {:.0f} unknown, {} enough, {} of these unreachable; {}",
-        u.best_unknown, u.counts.poses_above_threshold, u.counts.poses_unreachable, rejected);
+        "no view: the best of {} left sees {:.0f} unknown, fewer than {:g} (utility.stop_gain); {}",
+        counted(u.ranking.size(), "view"), u.best_unknown, std::max(stop_gain, 1.0), rejectedText(u));
+  return fmt::format("no view: {} enough unknown ({:g} or more), none can be reached; {}",
+                     u.counts.poses_above_threshold == 1
+                         ? "1 view sees"
+                         : fmt::format("{} views see", u.counts.poses_above_threshold),
+                     stop_gain, rejectedText(u));
+}
+
+/// The choice of the hierarchical planner.
+std::string utilityText(const StepRecord& r, double stop_gain) {
+  const UtilitySearch& u = *r.utilities;
+  const ViewUtility* view = chosenUtility(u);
+  if (!view) return noUtilityText(u, stop_gain);
   const Eigen::Vector3d p = view->T_world_camera.translation();
+  // D-A18: the best by utility may see less than h_stop, as long as another survivor sees as much.
+  const std::string other =
+      view->unknown < stop_gain ? fmt::format(" (another view {:.0f})", u.best_unknown) : "";
   std::string text = fmt::format(
-      "view {} at ({:.2f}, {:.2f}, {:.2f}) m sees {:.0f} unknown and {:.0f} occupied, distance factor "
-      "{:.2f}, "
-      "utility {:.3g}; {}; {} better ones unreachable",
-      view->id, p.x(), p.y(), p.z(), view->unknown, view->occupied, view->distance, view->utility, rejected,
-      u.counts.poses_unreachable);
+      "view {} at ({:.2f}, {:.2f}, {:.2f}) m sees {:.0f} unknown{} and {:.0f} occupied, distance factor "
+      "{:.2f}, utility {:.3g}; {}; {} unreachable",
+      view->id, p.x(), p.y(), p.z(), view->unknown, other, view->occupied, view->distance, view->utility,
+      rejectedText(u), counted(u.counts.poses_unreachable, "better one"));
   if (u.chosen->path.verdict != Reachability::Reachable)
     text += fmt::format("; motion: {}", toString(u.chosen->path.verdict));
   return text;
 }
 
-std::string choiceText(const StepRecord& r) {
-  if (r.utilities) return utilityText(r);
+std::string choiceText(const StepRecord& r, double stop_gain) {
+  if (r.utilities) return utilityText(r, stop_gain);
   const SearchCounts& n = r.search->counts;
   if (!r.hasView())
     return fmt::format("no view: {} poses scored, {} above the threshold, {} of them unreachable",
@@ -123,9 +146,10 @@ std::string servedText(const StepRecord& record) {
                      angleBetween(served, planned) * 180.0 / std::numbers::pi);
 }
 
-std::string stepText(const StepRecord& record) {
+std::string stepText(const StepRecord& record, double stop_gain) {
   if (record.closing) return fmt::format("end     {}", mapText(record));
-  return fmt::format("step {:<2} {}\n        {}", record.step, choiceText(record), mapText(record));
+  return fmt::format("step {:<2} {}\n        {}", record.step, choiceText(record, stop_gain),
+                     mapText(record));
 }
 
 }  // namespace vantage::app

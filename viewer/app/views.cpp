@@ -8,6 +8,7 @@
 #include "io/table_file.h"
 #include "viewer/app/command.h"
 #include "viewer/app/console.h"
+#include "viewer/app/counted.h"
 #include "viewer/app/inputs.h"
 #include "viewer/app/json_output.h"
 
@@ -15,7 +16,8 @@ namespace vantage::app {
 namespace {
 
 struct ViewOptions {
-  std::string map, output, generator = "contour";
+  std::string map, output;
+  std::string generator;  ///< empty: what the settings or the map suggest
   std::optional<int> count;
 };
 
@@ -26,18 +28,22 @@ struct MadeViews {
   nlohmann::ordered_json json;  ///< beside the number of views
 };
 
-MadeViews contourCandidates(const GlobalOptions& global, const ViewOptions& options) {
+MadeViews contourCandidates(const LoadedMap& map, const ViewOptions& options) {
   if (options.count)
     throw InputError("--count",
                      "does not go with the contour generator, which makes its views from what it "
                      "finds; leave it out or use --generator icosphere or workspace");
-  const LoadedMap map = loadMap(global, options.map, MapNeed::Tsdf);
+  if (!map.hasVolume())
+    throw InputError(
+        options.map,
+        "is an octree, and contours are found in a TSDF; add --generator icosphere or --generator "
+        "workspace, or give a .vti file");
   const ContourPlannerConfig& planner = map.settings.exploration.contour;
   const Contours found = extractContours(map.volume, planner.contours);
   MadeViews made;
   for (const CandidateView& view : contourViews(found.points, planner.views))
     made.rows.push_back({view.id, view.T_world_camera, view.group});
-  made.origin = fmt::format("of {} contour points", found.points.size());
+  made.origin = "of " + counted(found.points.size(), "contour point");
   made.json = {{"contour_points", found.points.size()}};
   return made;
 }
@@ -57,20 +63,11 @@ int subdivisionsFor(int count) {
           : fmt::format("an icosphere has 20 * 4^n faces; the nearest numbers are {} and {}", lower, upper));
 }
 
-/// The object's box: as configured, else that of the map.
-Box objectBoxOf(const LoadedMap& map) {
-  const ExplorationConfig& exploration = map.settings.exploration;
-  const bool configured = exploration.octree.object_box.volume() > 0.0;
-  return map.octree && !configured ? map.octree->objectBox() : exploration.objectBox();
-}
-
 /// Candidates of the hierarchical planner.
-MadeViews planningCandidates(const GlobalOptions& global, const ViewOptions& options) {
-  const LoadedMap map = loadMap(global, options.map, MapNeed::Either);
+MadeViews planningCandidates(const LoadedMap& map, const ViewOptions& options, const std::string& generator) {
   HierarchicalPlannerConfig config = map.settings.exploration.hierarchical;
   MadeViews made;
-  const Box mapped = map.octree ? map.octree->geometry().bounds() : map.volume.geometry().bounds();
-  if (options.generator == "icosphere") {
+  if (generator == "icosphere") {
     config.generator = CandidateGenerator::Icosphere;
     if (options.count) config.icosphere_subdivisions = subdivisionsFor(*options.count);
     made.origin = fmt::format("on a sphere of {:g} m around the object's box", config.sphere_radius_m);
@@ -82,20 +79,33 @@ MadeViews planningCandidates(const GlobalOptions& global, const ViewOptions& opt
     made.json = {{"seed", map.settings.exploration.seed}};
   }
   for (const ViewCandidate& view :
-       makeCandidates(config, objectBoxOf(map), mapped, map.settings.exploration.seed))
+       makeCandidates(config, objectBoxOf(map), mappedBox(map), map.settings.exploration.seed))
     made.rows.push_back({view.id, view.T_world_camera, std::nullopt});
   return made;
 }
 
+/// As asked for, else as set for this command, else by the planner of a recorded step.
+std::string generatorFor(const LoadedMap& map, const ViewOptions& options) {
+  if (!options.generator.empty()) return options.generator;
+  const std::string origin = map.settings.origin("candidates.generator");
+  const std::string run = options.map.substr(0, options.map.rfind('#'));
+  const bool by_octree = map.record && map.record->utilities;
+  if (!by_octree && (origin == "default" || origin == run)) return "contour";
+  const bool icosphere = map.settings.exploration.hierarchical.generator == CandidateGenerator::Icosphere;
+  return icosphere ? "icosphere" : "workspace";
+}
+
 int views(const GlobalOptions& global, const ViewOptions& options) {
   requireDistinctFiles({{"MAP", options.map}, {"-o", options.output}, {"--json", global.json}});
-  const MadeViews made = options.generator == "contour" ? contourCandidates(global, options)
-                                                        : planningCandidates(global, options);
+  const LoadedMap map = loadMap(global, options.map, MapNeed::Either);
+  const std::string generator = generatorFor(map, options);
+  const MadeViews made =
+      generator == "contour" ? contourCandidates(map, options) : planningCandidates(map, options, generator);
   writeViews(options.output, made.rows);
-  nlohmann::ordered_json json = {{"views", made.rows.size()}, {"generator", options.generator}};
+  nlohmann::ordered_json json = {{"views", made.rows.size()}, {"generator", generator}};
   json.update(made.json);
   writeJson(global.json, json);
-  if (options.output != "-") say(global, fmt::format("{} views {}", made.rows.size(), made.origin));
+  if (options.output != "-") say(global, counted(made.rows.size(), "view") + ' ' + made.origin);
   return 0;
 }
 
@@ -108,7 +118,9 @@ void addViews(CLI::App& app, const GlobalOptions& global, Action& action) {
       ->required()
       ->type_name("MAP");
   command->add_option("-o,--output", options->output, "View poses, CSV")->required()->type_name("VIEWS.csv");
-  command->add_option("--generator", options->generator, "How candidates are made")
+  command
+      ->add_option("--generator", options->generator,
+                   "How candidates are made (default: contour; of a step planned on the octree its own)")
       ->check(CLI::IsMember({"contour", "icosphere", "workspace"}));
   command
       ->add_option("--count", options->count,
