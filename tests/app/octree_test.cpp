@@ -197,9 +197,50 @@ TEST_F(Octree, OptionsThatDoNotFitAreRefused) {
   expectGainRefused("half.bt", {"--tracer", "hierarchical", "--coarse-levels", "7"},
                     {"--coarse-levels", "allowed: 0 .. 5"});
   expectGainRefused("half.bt", {"--tracer", "hierarchical", "--coarse-levels", "-1"}, {"allowed: 0 .. 5"});
-  expectGainRefused("half.bt", {"--fov-deg", "0,40"}, {"--fov-deg"});
-  expectGainRefused("half.bt", {"--range", "3,1"}, {"max_range_m"});
+  expectGainRefused("half.bt", {"--fov-deg", "0,40"}, {"--fov-deg 0,40", "degrees"});
+  expectGainRefused("half.bt", {"--fov-deg", "40,180"}, {"--fov-deg 40,180", "degrees"});
+  expectGainRefused("half.bt", {"--range", "3,1"}, {"--range 3,1", "MIN,MAX in metres"});
+  expectGainRefused("half.bt", {"--range", "-1,1"}, {"--range -1,1", "metres"});
+  expectGainRefused("half.bt", {"--range", "0,nan"}, {"--range"});
+  // Nobody typed --coarse-levels.
+  expectGainRefused("half.bt", {"--tracer", "hierarchical", "--range", "0,0.2"},
+                    {"rays.coarse_levels = 2", "allowed: 0 .. 1"});
   expectGainRefused("half.bt", {"--range", "0.01,0.04"}, {"too large"});
+}
+
+TEST_F(Octree, RegionsOutsideTheMapAreWarnedOf) {
+  const auto errorsOf = [&](const std::vector<std::string>& region) {
+    std::vector<std::string> words = {"gain", folder_ / "half.bt", folder_ / "view.csv", "-o",
+                                      folder_ / "g.csv"};
+    words.insert(words.end(), region.begin(), region.end());
+    const ProcessResult result = vantage(words);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return result.err;
+  };
+  EXPECT_EQ(errorsOf({"--bounds", "9,9,9,10,10,10"}).rfind("vantage: warning: --bounds: ", 0), 0u);
+  EXPECT_EQ(errorsOf({"--sphere", "5,0,0,1"}).rfind("vantage: warning: --sphere: ", 0), 0u);
+  EXPECT_EQ(errorsOf({"--bounds", "-1,-1,0,0,1,2", "--sphere", "1.5,0,0,1"}), "");
+}
+
+TEST_F(Octree, GainTellsWhatItCost) {
+  const ProcessResult result =
+      vantage({"gain", folder_ / "half.bt", folder_ / "view.csv", "-o", folder_ / "g.csv", "--json", "-",
+               "-v", "--fov-deg", "60,45", "--range", "0,1"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["rays"], 336);
+  EXPECT_EQ(json["visited"], 5358);
+  EXPECT_EQ(json["most_unknown"], 176);
+  EXPECT_EQ(json["rejected"], 0);
+  EXPECT_GE(json["seconds"], 0.0);
+  EXPECT_NE(result.err.find("gain: 1 view, 0 rejected, 336 rays"), std::string::npos) << result.err;
+}
+
+TEST_F(Octree, MapsAreNoScenes) {
+  expectRefused(vantage({"explore", folder_ / "half.bt"}), {"half.bt", "is a .bt file", "vantage scenes"});
+  expectRefused(vantage({"config", folder_ / "wall.ot"}), {"wall.ot", "is a .ot file"});
+  writeFile(folder_ / "half.bt.toml", "map_min_m = [0, 0, 0]\nmap_max_m = [1, 1, 1]\n");
+  expectRefused(vantage({"info", folder_ / "half.bt.toml"}), {"half.bt.toml", "which space", "half.bt'"});
 }
 
 TEST_F(Octree, CommandsThatWorkOnATsdfRefuseAnOctree) {
@@ -258,6 +299,19 @@ TEST_F(Octree, BoundsOfAFusedMapAreTheObjectsBox) {
     std::vector<std::string> words = {"fuse", tray, "-o", map};
     words.insert(words.end(), bad.begin(), bad.end());
     expectRefused(vantage(words), {bad[0], ".vti"});
+  }
+}
+
+TEST_F(Octree, BoundsThatNothingWasMeasuredInAreWarnedOf) {
+  const std::string tray = std::string(VANTAGE_TEST_DATA) + "/rgbd_ur5_tray";
+  if (!std::filesystem::exists(tray)) GTEST_SKIP() << "recorded data set not here: " << tray;
+  for (const char* name : {"far.bt", "far.vti"}) {
+    const ProcessResult result = vantage({"fuse", tray, "-o", folder_ / name, "--frames", "0:1",
+                                          "--voxel-size", "0.1", "--bounds", "90,90,90,91,91,91"});
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(result.err.rfind("vantage: warning: no measurement reaches the mapped box", 0), 0u)
+        << result.err;
+    EXPECT_NE(result.out.find("1 frame into"), std::string::npos) << result.out;
   }
 }
 

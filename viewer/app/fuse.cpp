@@ -16,6 +16,7 @@
 #include "io/volume_file.h"
 #include "viewer/app/command.h"
 #include "viewer/app/console.h"
+#include "viewer/app/counted.h"
 #include "viewer/app/inputs.h"
 #include "viewer/app/json_output.h"
 
@@ -127,8 +128,10 @@ std::size_t eachFrame(const GlobalOptions& global, const FuseOptions& options, c
 
 void report(const GlobalOptions& global, std::size_t frames, const GridGeometry& geometry,
             std::uint64_t updated) {
-  say(global, fmt::format("{} frames into {} x {} x {} voxels of {:.3f} mm, {} voxel updates", frames,
-                          geometry.size.x(), geometry.size.y(), geometry.size.z(),
+  if (updated == 0)
+    warn("no measurement reaches the mapped box; check --bounds, --frames and the camera's range");
+  say(global, fmt::format("{} into {} x {} x {} voxels of {:.3f} mm, {} voxel updates",
+                          counted(frames, "frame"), geometry.size.x(), geometry.size.y(), geometry.size.z(),
                           geometry.voxel_size_m * 1e3, updated));
   writeJson(global.json, {{"frames", frames},
                           {"size", {geometry.size.x(), geometry.size.y(), geometry.size.z()}},
@@ -180,7 +183,10 @@ void fuseOctree(const GlobalOptions& global, const FuseOptions& options, const D
   std::uint64_t updated = 0;
   const std::size_t frames =
       eachFrame(global, options, dataset, [&](const DepthImage& depth, const Pose& pose) {
-        updated += map.insert(depth, settings.camera, pose).updated;
+        const OccupancyUpdate scan = map.insert(depth, settings.camera, pose);
+        updated += scan.updated;
+        logDetail(fmt::format("fuse: {} hits, {} misses, {} voxels changed, {} nodes", scan.hits, scan.misses,
+                              scan.updated, map.nodeCount()));
       });
   writeOctree(options.output, map);
   report(global, frames, grid, updated);

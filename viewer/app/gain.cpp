@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
+#include <tuple>
 
 #include "core/raycasting/hierarchical_caster.h"
 #include "core/raycasting/uniform_caster.h"
@@ -15,6 +17,7 @@
 #include "io/table_file.h"
 #include "viewer/app/command.h"
 #include "viewer/app/console.h"
+#include "viewer/app/counted.h"
 #include "viewer/app/inputs.h"
 #include "viewer/app/json_output.h"
 
@@ -32,11 +35,22 @@ struct GainOptions {
 
 /// Full apertures in radians. \pre given
 std::array<double, 2> fovOf(const GainOptions& options) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
-  const double h = options.fov_deg[0] * kDegree, v = options.fov_deg[1] * kDegree;
-  if (!(h > 0 && h < std::numbers::pi && v > 0 && v < std::numbers::pi))
-    throw InputError("--fov-deg", "apertures must lie between 0 and 180 degrees; give H,V");
-  return {h, v};
+  constexpr double kDegree = std::numbers::pi / 180.0, kLeast = 0.1, kMost = 179.0;
+  for (const double degrees : options.fov_deg)
+    if (!(degrees >= kLeast && degrees <= kMost))
+      throw InputError(
+          fmt::format("--fov-deg {:g},{:g}", options.fov_deg[0], options.fov_deg[1]),
+          fmt::format("an aperture is out of range; give H,V, each {:g} .. {:g} degrees", kLeast, kMost));
+  return {options.fov_deg[0] * kDegree, options.fov_deg[1] * kDegree};
+}
+
+/// Shortest and longest ray. \pre given
+std::array<double, 2> rangeOf(const GainOptions& options) {
+  const double near = options.range_m[0], far = options.range_m[1];
+  if (!(near >= 0.0 && far <= 1000.0 && far >= 1e-3 && far > near + 1e-6))
+    throw InputError(fmt::format("--range {:g},{:g}", near, far),
+                     "no range of ray lengths; give MIN,MAX in metres, 0 <= MIN < MAX <= 1000");
+  return {near, far};
 }
 
 PinholeCamera chooseCamera(const GainOptions& options, const PinholeCamera& configured) {
@@ -49,8 +63,7 @@ PinholeCamera chooseCamera(const GainOptions& options, const PinholeCamera& conf
     camera.cy = (camera.height - 1) / 2.0;
   }
   if (!options.range_m.empty()) {
-    camera.min_range_m = options.range_m[0];
-    camera.max_range_m = options.range_m[1];
+    std::tie(camera.min_range_m, camera.max_range_m) = std::tuple_cat(rangeOf(options));
   }
   camera.validate();
   return camera;
@@ -125,8 +138,7 @@ RaySensor chooseSensor(const GainOptions& options, RaySensor sensor) {
     sensor.vertical_fov_rad = v;
   }
   if (!options.range_m.empty()) {
-    sensor.min_range_m = options.range_m[0];
-    sensor.max_range_m = options.range_m[1];
+    std::tie(sensor.min_range_m, sensor.max_range_m) = std::tuple_cat(rangeOf(options));
   }
   sensor.validate();
   return sensor;
@@ -134,7 +146,7 @@ RaySensor chooseSensor(const GainOptions& options, RaySensor sensor) {
 
 /// Levels above the finest at which tracing starts. \throws InputError with the largest number allowed
 int chooseLevels(const GainOptions& options, int configured, const RaySensor& sensor, double voxel_size_m) {
-  const int most = std::min(maxCoarseLevels(sensor, voxel_size_m), StatePyramid::kMaxCoarseLevels);
+  const int most = maxCoarseLevels(sensor, voxel_size_m);
   if (most < 0)
     throw InputError(options.map, fmt::format("its voxels of {} m are too large for this sensor, which sees "
                                               "less than one at its range; raise --range or --fov-deg",
@@ -142,9 +154,10 @@ int chooseLevels(const GainOptions& options, int configured, const RaySensor& se
   if (!options.hierarchical()) return 0;
   const int levels = options.coarse_levels.value_or(configured);
   if (levels >= 0 && levels <= most) return levels;
-  throw InputError("--coarse-levels",
-                   fmt::format("{} coarse levels do not fit voxels of {} m and this sensor; allowed: 0 .. {}",
-                               levels, voxel_size_m, most));
+  const std::string name = options.coarse_levels ? "--coarse-levels" : "rays.coarse_levels =";
+  throw InputError(fmt::format("{} {}", name, levels),
+                   fmt::format("too many levels for voxels of {} m and this sensor; allowed: 0 .. {}{}",
+                               voxel_size_m, most, options.coarse_levels ? "" : " (--coarse-levels)"));
 }
 
 void requireRayOptions(const GainOptions& options) {
@@ -200,10 +213,43 @@ Gains rayGains(const GlobalOptions& global, const GainOptions& options, const Lo
   return gains;
 }
 
+/// A region that holds nothing of the map is hardly meant.
+void warnOfEmptyRegion(const GainOptions& options, const Box& mapped) {
+  const VisibilityQuery region = makeQuery(options);
+  if (region.bounds && !overlap(*region.bounds, mapped))
+    warn("--bounds: the box lies outside the map; no voxel counts");
+  if (region.sphere && mapped.exteriorDistance(region.sphere->center) > region.sphere->radius)
+    warn("--sphere: the ball lies outside the map; no voxel counts");
+}
+
 /// Of a run that keeps both maps, the one that the step's planner worked on.
 bool isOctree(const LoadedMap& map) {
   if (!map.octree || !map.hasVolume()) return map.octree.has_value();
   return map.record && map.record->utilities;
+}
+
+void report(const GlobalOptions& global, const GainOptions& options, const Gains& gains, double seconds) {
+  std::uint64_t rays = 0, visited = 0, rejected = 0, best = 0;
+  for (const GainRow& row : gains.rows) {
+    rays += row.rays;
+    visited += row.visited;
+    rejected += !row.reject.empty();
+    best = std::max(best, row.unknown);
+  }
+  logDetail(fmt::format("gain: {}, {} rejected, {} rays, {} voxels visited, {:.3f} s",
+                        counted(gains.rows.size(), "view"), rejected, rays, visited, seconds));
+  writeJson(global.json, {{"views", gains.rows.size()},
+                          {"rays_per_view", gains.rays_per_view},
+                          {"count", options.count},
+                          {"tracer", options.tracer},
+                          {"rejected", rejected},
+                          {"rays", rays},
+                          {"visited", visited},
+                          {"most_unknown", best},
+                          {"seconds", seconds}});
+  if (options.output != "-")
+    say(global, fmt::format("{}, {} rays each, counted as {}", counted(gains.rows.size(), "view"),
+                            gains.rays_per_view, options.count));
 }
 
 int gain(const GlobalOptions& global, const GainOptions& options) {
@@ -217,16 +263,13 @@ int gain(const GlobalOptions& global, const GainOptions& options) {
   const LoadedMap map = loadMap(global, options.map, MapNeed::Either);
   const std::vector<ViewRow> views = readViews(options.views);
   const bool octree = isOctree(map);
+  warnOfEmptyRegion(options, octree ? map.octree->geometry().bounds() : map.volume.geometry().bounds());
+  const auto start = std::chrono::steady_clock::now();
   const Gains gains = octree || options.hierarchical() ? rayGains(global, options, map, octree, views)
                                                        : cameraGains(global, options, map, views);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   writeGains(options.output, gains.rows);
-  writeJson(global.json, {{"views", gains.rows.size()},
-                          {"rays_per_view", gains.rays_per_view},
-                          {"count", options.count},
-                          {"tracer", options.tracer}});
-  if (options.output != "-")
-    say(global, fmt::format("{} views, {} rays each, counted as {}", gains.rows.size(), gains.rays_per_view,
-                            options.count));
+  report(global, options, gains, seconds);
   return 0;
 }
 

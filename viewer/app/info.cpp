@@ -153,6 +153,10 @@ Json describe(const GlobalOptions& global, const std::string& path) {
   if (extension == ".pcd" || extension == ".ply") return describeCloud(path);
   if (std::filesystem::is_directory(path)) return describeDataset(path);
   if (extension == ".csv") return describeTable(path);
+  for (const char* map : {".bt.toml", ".ot.toml"})
+    if (path.ends_with(map))
+      throw InputError(path, "is the text that says which space the octree beside it maps; look at '" +
+                                 path.substr(0, path.size() - 5) + "'");
   if (extension == ".toml" || extension.empty()) return describeScene(path);
   throw InputError(path,
                    "not a kind of file that is known; known: .vantage, .vti, .bt, .ot, .pcd, .ply, .csv, "
