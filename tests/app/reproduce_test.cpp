@@ -107,7 +107,7 @@ TEST(Reproduce, RefusesWhatItCannotRun) {
   expectRefused(reproduce({"A3", "--quick", "--dataset", folder / "none", "-o", folder / "out"}), {"none"});
   const ProcessResult missing =
       reproduce({"A1", "A3", "--quick", "--dataset", folder / "none", "-o", folder / "out"});
-  expectRefused(missing, {"none"});
+  expectRefused(missing, {"--dataset", "none", "no folder"});
   EXPECT_EQ(missing.out.find("views"), std::string::npos) << "nothing was run before";
   writeFile(folder.path() / "file", "x");
   expectRefused(reproduce({"A1", "--quick", "-o", folder / "file"}), {"file", "no folder"});

@@ -104,6 +104,8 @@ void requireFolder(const std::string& path) {
 
 /// What can be refused is refused before hours are spent.
 void check(const Choice& choice, const ExperimentOptions& options) {
+  if (!options.dataset.empty() && !std::filesystem::is_directory(options.dataset))
+    throw InputError("--dataset " + options.dataset, "is no folder; give one with a recorded sequence");
   if (choice.a1) checkA1(options);
   if (choice.a2) checkA2(options);
   if (choice.a3) checkA3(options);
@@ -187,7 +189,8 @@ void addReproduce(CLI::App& app, const GlobalOptions& global, Action& action) {
   command->add_option("-o,--output", o->output, "Folder for CSV, JSON and one HTML page")
       ->required()
       ->type_name("DIR");
-  command->add_flag("--quick", o->quick, "One object, one size, fewer modes and steps");
+  command->add_flag("--quick", o->quick,
+                    "One object and size, or those of --mesh and --sizes; fewer modes and steps");
   command
       ->add_option(
           "--mesh", o->meshes,
