@@ -59,6 +59,14 @@ const ViewUtility* nextBest(const UtilitySearch& search) {
   return nullptr;
 }
 
+/// Of a replay it is often that no frame is left near the views.
+std::string whyNone(const UtilitySearch& search) {
+  const auto frameless = std::ranges::count(search.views, Reachability::NoFrame, &ViewUtility::reachability);
+  return static_cast<std::uint64_t>(frameless) == search.counts.poses_unreachable
+             ? "no recorded frame is left near any of them"
+             : "none can be reached";
+}
+
 std::string noneChosen(const SceneFrame& frame, const UtilitySearch& search) {
   const double stop = frame.header.octree ? frame.header.octree->planner.stop_gain : 0.0;
   const std::string unit = unitOf(frame), fallen = fallenText(search);
@@ -68,7 +76,7 @@ std::string noneChosen(const SceneFrame& frame, const UtilitySearch& search) {
   const std::uint64_t enough = search.counts.poses_above_threshold;
   if (end == SearchEnd::Unreachable && search.counts.poses_unreachable > 0)
     return none + grouped(enough) + (enough == 1 ? " sees" : " see") + " enough, " + whole(stop) +
-           " unknown" + unit + " or more, but none can be reached. " + fallen;
+           " unknown" + unit + " or more, but " + whyNone(search) + ". " + fallen;
   return none + "the best of the " + grouped(search.ranking.size()) + " left sees " +
          whole(search.best_unknown) + " unknown" + unit + ", the planner stops below " + whole(stop) + ". " +
          fallen;

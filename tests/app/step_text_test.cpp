@@ -9,6 +9,10 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
+bool isUnreachable(Reachability reachability) {
+  return reachability == Reachability::NoPath || reachability == Reachability::NoFrame;
+}
+
 /// Three views that survived, one that did not; `reachable` says what the robot answered to the first two.
 StepRecord record(Reachability first, Reachability second) {
   UtilitySearch search;
@@ -27,7 +31,7 @@ StepRecord record(Reachability first, Reachability second) {
   search.counts.poses_generated = 4;
   search.counts.poses_above_threshold = 2;
   search.counts.poses_executed_before = 1;
-  search.counts.poses_unreachable = (first == Reachability::NoPath) + (second == Reachability::NoPath);
+  search.counts.poses_unreachable = isUnreachable(first) + isUnreachable(second);
   for (const std::uint32_t n : {1u, 0u})
     if (search.views[n].reachability == Reachability::Reachable) search.chosen.emplace().id = n;
   if (search.chosen) search.chosen->path.verdict = Reachability::Reachable;
@@ -58,6 +62,9 @@ TEST(StepText, TellsWhyThereIsNoView) {
   EXPECT_THAT(stepText(r, 500.0),
               HasSubstr("no view: the best of 3 views left sees 412 unknown, fewer than 500"));
   EXPECT_THAT(stepText(r, 500.0), Not(HasSubstr("reached")));
+  const StepRecord frameless = record(Reachability::NoFrame, Reachability::NoFrame);
+  EXPECT_THAT(stepText(frameless, 100.0),
+              HasSubstr("2 views see enough unknown (100 or more), no recorded frame is left near"));
   UtilitySearch search = *r.utilities;
   search.ranking.clear();
   r.utilities = std::make_shared<UtilitySearch>(search);

@@ -98,6 +98,9 @@ TEST(Captions, TellReachabilityFromTooLittleUnknownAndFromNoViewAtAll) {
   EXPECT_THAT(utilityFigures(run.frame(), {}),
               testing::StartsWith("No view was chosen: " + grouped(search.counts.poses_above_threshold) +
                                   " see enough, 100 unknown rays or more, but none can be reached. Of "));
+  for (const std::uint32_t n : search.ranking) search.views[n].reachability = Reachability::NoFrame;
+  run.record.utilities = std::make_shared<UtilitySearch>(search);
+  EXPECT_THAT(utilityFigures(run.frame(), {}), HasSubstr("but no recorded frame is left near any of them."));
   search.ranking.clear();
   search.best_unknown = 0.0;
   search.counts.poses_executed_before = 2;

@@ -71,6 +71,15 @@ std::string rejectedText(const UtilitySearch& u) {
   return text;
 }
 
+/// What keeps all of them from being taken: of a replay often that no frame is left near them.
+std::string whyNone(const UtilitySearch& u) {
+  std::uint64_t frameless = 0;
+  for (const ViewUtility& view : u.views) frameless += view.reachability == Reachability::NoFrame;
+  if (frameless == 0) return "none can be reached";
+  return frameless == u.counts.poses_unreachable ? "no recorded frame is left near any of them"
+                                                 : "none can be reached or has a recorded frame left near it";
+}
+
 /// Why the hierarchical planner chose none.
 std::string noUtilityText(const UtilitySearch& u, double stop_gain) {
   const SearchEnd end = endOf(u, stop_gain);
@@ -79,11 +88,11 @@ std::string noUtilityText(const UtilitySearch& u, double stop_gain) {
     return fmt::format(
         "no view: the best of {} left sees {:.0f} unknown, fewer than {:g} (utility.stop_gain); {}",
         counted(u.ranking.size(), "view"), u.best_unknown, std::max(stop_gain, 1.0), rejectedText(u));
-  return fmt::format("no view: {} enough unknown ({:g} or more), none can be reached; {}",
+  return fmt::format("no view: {} enough unknown ({:g} or more), {}; {}",
                      u.counts.poses_above_threshold == 1
                          ? "1 view sees"
                          : fmt::format("{} views see", u.counts.poses_above_threshold),
-                     stop_gain, rejectedText(u));
+                     stop_gain, whyNone(u), rejectedText(u));
 }
 
 /// The choice of the hierarchical planner.
