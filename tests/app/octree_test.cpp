@@ -336,6 +336,18 @@ TEST_F(Octree, TheHierarchicalTracerReadsATsdfToo) {
     rows[levels / 2] = lines(result.out).at(1);
   }
   EXPECT_NE(rows[0], rows[1]);
+  // A sensor in the first voxel, which nothing was measured in, is rejected by both tracers.
+  std::ostringstream corner;
+  corner << "id,x_m,y_m,z_m,qx,qy,qz,qw\n5," << facts["origin_m"][0] << ',' << facts["origin_m"][1] << ','
+         << facts["origin_m"][2] << ",1,0,0,0\n";
+  writeFile(folder_ / "view.csv", views.str() + corner.str().substr(corner.str().find('\n') + 1));
+  for (const char* tracer : {"uniform", "hierarchical"}) {
+    const ProcessResult result = vantage({"gain", folder_ / "tray.vti", folder_ / "view.csv", "-o", "-",
+                                          "--tracer", tracer, "--range", "0.4,4"});
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_TRUE(lines(result.out).at(1).ends_with(",")) << result.out;
+    EXPECT_TRUE(lines(result.out).at(2).ends_with(",position")) << result.out;
+  }
   const auto unknown = [](const std::string& row) { return std::stod(row.substr(2)); };
   EXPECT_GT(unknown(rows[0]), 1000);
   EXPECT_NEAR(unknown(rows[1]) / unknown(rows[0]), 1.1, 0.3);

@@ -110,7 +110,13 @@ void eachView(const GlobalOptions& global, const GainOptions& options, const std
   if (console.interrupted()) throw Interrupted(options.output + ": interrupted; nothing was written");
 }
 
-/// One ray a pixel through a TSDF.
+/// The sensor is in the map, but not in free space; around a TSDF there is nothing.
+bool standsInSomething(const StateGrid& states, const Pose& pose) {
+  const Eigen::Vector3i voxel = states.geometry().voxelAt(pose.translation());
+  return states.geometry().contains(voxel) && states.at(voxel) != VoxelState::Free;
+}
+
+/// One ray a pixel through a TSDF. What a sensor sees that stands in something is told, and that it does.
 Gains cameraGains(const GlobalOptions& global, const GainOptions& options, const LoadedMap& map,
                   const std::vector<ViewRow>& views) {
   const PinholeCamera camera = chooseCamera(options, map.settings.camera);
@@ -125,7 +131,7 @@ Gains cameraGains(const GlobalOptions& global, const GainOptions& options, const
             options.voxels() ? c.occupied_voxels : c.occupied,
             c.rays,
             c.visited,
-            ""};
+            standsInSomething(states, view.T_world_camera) ? "position" : ""};
   });
   return gains;
 }
