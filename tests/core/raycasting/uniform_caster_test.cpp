@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "core/geometry/depth_image.h"
 #include "core/raycasting/bundle.h"
 #include "tests/core/raycasting/random_scene.h"
 
