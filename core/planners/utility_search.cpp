@@ -1,5 +1,6 @@
 // Steps 4 and 5 of Algorithm 1, Vasquez-Gomez et al. 2013.
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -60,10 +61,16 @@ class Search {
     result_.box_unknown = input_.pyramid.finest().count(VoxelState::Unknown, input_.object_box);
     result_.views.resize(input_.candidates.size());
     control_.report("evaluate views", 0, result_.views.size());
-    tbb::parallel_for(std::size_t{0}, result_.views.size(), [&](std::size_t n) {
-      control_.check();
-      result_.views[n] = evaluateView(input_, config_, input_.candidates[n], result_.box_unknown);
-    });
+    // One by one: some views cost a hundred times as much as others.
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, result_.views.size()),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          for (std::size_t n = range.begin(); n != range.end(); ++n) {
+            control_.check();
+            result_.views[n] = evaluateView(input_, config_, input_.candidates[n], result_.box_unknown);
+          }
+        },
+        tbb::simple_partitioner());
     control_.report("evaluate views", result_.views.size(), result_.views.size());
   }
 
