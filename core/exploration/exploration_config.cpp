@@ -16,6 +16,11 @@ bool ExplorationConfig::needsVolume() const {
 bool ExplorationConfig::needsOctree() const {
   return std::ranges::any_of(planners, usesOctree);
 }
+bool ExplorationConfig::serves(const std::vector<ScanPose>& left, const Pose& view) const {
+  return serve_distance_m <= 0.0 || std::ranges::any_of(left, [&](const ScanPose& frame) {
+           return isNear(frame.T_world_camera, view, serve_distance_m, serve_angle_rad);
+         });
+}
 Box ExplorationConfig::objectBox() const {
   return octree.object_box.volume() > 0.0 ? octree.object_box : workspace;
 }

@@ -73,7 +73,6 @@ struct Explorer::State {
   std::vector<Pose> scanPoses(const std::optional<StepRecord>& previous) const;
   bool observe(StepRecord& record, std::optional<StepRecord>& previous, const RunControl& control);
   ReachPose reachIn(const StepRecord& record, MotionPlan& reported);
-  bool servable(const Pose& pose) const;
   void plan(StepRecord& record, const RunControl& control);
   void planContour(StepRecord& record, const ReachPose& reach,
                    const std::function<void(Stage)>& publish_stage, const RunControl& control);
@@ -127,18 +126,9 @@ bool Explorer::State::scanInto(StepRecord& record, const std::vector<Pose>& pose
   return true;
 }
 
-/// Recorded data: a frame that is left was taken near enough (evaluation.md, A3).
-bool Explorer::State::servable(const Pose& pose) const {
-  if (!isReplay() || config.serve_distance_m <= 0.0) return true;
-  return std::ranges::any_of(camera.posesLeft(), [&](const ScanPose& left) {
-    return (left.T_world_camera.translation() - pose.translation()).norm() <= config.serve_distance_m &&
-           angleBetween(left.T_world_camera, pose) <= config.serve_angle_rad;
-  });
-}
-
 ReachPose Explorer::State::reachIn(const StepRecord& record, MotionPlan& reported) {
   return [&, step = record.step, tried = std::uint64_t{0}](const Pose& pose) mutable {
-    if (!servable(pose)) {
+    if (isReplay() && !config.serves(camera.posesLeft(), pose)) {
       MotionPlan none;
       none.verdict = Reachability::NoFrame;
       return none;

@@ -40,8 +40,8 @@ struct ExplorationConfig {
   Box workspace = {Eigen::Vector3d(-1.0, -0.66, 0.0), Eigen::Vector3d(1.0, 0.66, 1.0)};
   int steps = 5;                     ///< NBVs
   bool enforce_reachability = true;  ///< false: obstacles and paths are only reported (replayed data)
-  /// Recorded data: views are offered only if a frame that is left was taken this near, metres and radians; 0
-  /// = the nearest frame serves, however far.
+  /// Recorded data: how near a frame must have been taken to serve a view, metres and radians; 0 = the
+  /// nearest frame serves, however far.
   double serve_distance_m = 0.0;
   double serve_angle_rad = 0.17453292519943295;  ///< 10 deg
   bool recorded_candidates =
@@ -52,6 +52,8 @@ struct ExplorationConfig {
   PlannerKind plannerOf(int step) const;  ///< step >= 1
   bool needsVolume() const;               ///< some planner works on the TSDF
   bool needsOctree() const;               ///< some planner works on the octree
+  /// Recorded data: a frame that is left was taken near enough to serve a view (evaluation.md, A3).
+  bool serves(const std::vector<ScanPose>& left, const Pose& view) const;
   /// The object's box: OctreeMapConfig::object_box, else the workspace.
   Box objectBox() const;
   /// What the maps are made of.

@@ -51,4 +51,8 @@ double angleBetween(const Pose& a, const Pose& b) {
   return Eigen::Quaterniond(a.linear()).angularDistance(Eigen::Quaterniond(b.linear()));
 }
 
+bool isNear(const Pose& a, const Pose& b, double distance_m, double angle_rad) {
+  return (a.translation() - b.translation()).norm() <= distance_m && angleBetween(a, b) <= angle_rad;
+}
+
 }  // namespace vantage

@@ -28,5 +28,7 @@ bool isRigid(const Eigen::Matrix4d& matrix, double tolerance = 1e-3);
 
 /// Geodesic angle between the orientations of two poses, radians in [0, pi].
 double angleBetween(const Pose& a, const Pose& b);
+/// True if positions and orientations differ by at most as much, metres and radians.
+bool isNear(const Pose& a, const Pose& b, double distance_m, double angle_rad);
 
 }  // namespace vantage

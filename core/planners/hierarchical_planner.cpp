@@ -29,8 +29,7 @@ bool overlapsKnownSurface(const ViewUtility& view, const HierarchicalPlannerConf
 
 bool takenBefore(const Pose& pose, const UtilityInput& input, const HierarchicalPlannerConfig& config) {
   return config.exclude_executed && std::ranges::any_of(input.executed, [&](const Pose& executed) {
-           return (executed.translation() - pose.translation()).norm() <= config.executed_distance_m &&
-                  angleBetween(executed, pose) <= config.executed_angle_rad;
+           return isNear(executed, pose, config.executed_distance_m, config.executed_angle_rad);
          });
 }
 

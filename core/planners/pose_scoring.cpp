@@ -96,8 +96,7 @@ std::vector<PositionCounts> castAll(const ViewSearchInput& input, const std::vec
 bool executedBefore(const ViewSearchInput& input, const GainConfig& gain, const Pose& pose) {
   return gain.exclude_executed &&
          std::any_of(input.executed.begin(), input.executed.end(), [&](const Pose& e) {
-           return (e.translation() - pose.translation()).norm() <= gain.executed_distance_m &&
-                  angleBetween(e, pose) <= gain.executed_angle_rad;
+           return isNear(e, pose, gain.executed_distance_m, gain.executed_angle_rad);
          });
 }
 

@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
-#include <tuple>
 
 #include "core/raycasting/hierarchical_caster.h"
 #include "core/raycasting/uniform_caster.h"
@@ -63,7 +62,9 @@ PinholeCamera chooseCamera(const GainOptions& options, const PinholeCamera& conf
     camera.cy = (camera.height - 1) / 2.0;
   }
   if (!options.range_m.empty()) {
-    std::tie(camera.min_range_m, camera.max_range_m) = std::tuple_cat(rangeOf(options));
+    const auto [near, far] = rangeOf(options);
+    camera.min_range_m = near;
+    camera.max_range_m = far;
   }
   camera.validate();
   return camera;
@@ -144,7 +145,9 @@ RaySensor chooseSensor(const GainOptions& options, RaySensor sensor) {
     sensor.vertical_fov_rad = v;
   }
   if (!options.range_m.empty()) {
-    std::tie(sensor.min_range_m, sensor.max_range_m) = std::tuple_cat(rangeOf(options));
+    const auto [near, far] = rangeOf(options);
+    sensor.min_range_m = near;
+    sensor.max_range_m = far;
   }
   sensor.validate();
   return sensor;

@@ -21,14 +21,6 @@ struct PlanOptions {
   std::string map, planner, output;
 };
 
-/// Recorded data: a frame that is left was taken near enough (evaluation.md, A3).
-bool servable(const Pose& pose, const std::vector<ScanPose>& left, const ExplorationConfig& config) {
-  return std::ranges::any_of(left, [&](const ScanPose& frame) {
-    return (frame.T_world_camera.translation() - pose.translation()).norm() <= config.serve_distance_m &&
-           angleBetween(frame.T_world_camera, pose) <= config.serve_angle_rad;
-  });
-}
-
 /// Reachability without a robot: from the pose of a recorded step a path is planned; for a map alone the
 /// sensor only has to fit. A replay offers what its recording can serve. Where verdicts are only reported,
 /// the last one is kept in `reported`.
@@ -42,7 +34,7 @@ ReachPose makeReach(const CollisionGrid& grid, const LoadedMap& map, MotionPlan&
        enforce = config.enforce_reachability, serve, left = serve ? posesLeft(map) : std::vector<ScanPose>(),
        tried = std::uint64_t{0}](const Pose& pose) mutable {
         MotionPlan plan;
-        if (serve && !servable(pose, left, config)) {
+        if (serve && !config.serves(left, pose)) {
           plan.verdict = Reachability::NoFrame;
           return plan;
         }

@@ -71,6 +71,15 @@ TEST(Pose, OrientationSurvivesARoundTripWithPositiveW) {
   }
 }
 
+TEST(Pose, IsNearWithinBothLimits) {
+  const Pose pose = lookAlong({1.0, 2.0, 3.0}, {0.0, 1.0, 0.0});
+  const Pose moved = lookAlong({1.0, 2.1, 3.0}, {0.0, 1.0, 0.0}, 0.2);
+  EXPECT_TRUE(isNear(pose, pose, 0.0, 1e-7));
+  EXPECT_TRUE(isNear(pose, moved, 0.11, 0.21));
+  EXPECT_FALSE(isNear(pose, moved, 0.09, 0.21));
+  EXPECT_FALSE(isNear(pose, moved, 0.11, 0.19));
+}
+
 TEST(Pose, AngleBetweenIsGeodesic) {
   const Pose pose = lookAlong({0, 0, 0}, {1, 2, 3});
   EXPECT_NEAR(angleBetween(pose, pose), 0.0, 1e-7);

@@ -99,14 +99,12 @@ Settings roomSettings(const SceneFile& scene, const ExperimentOptions& options, 
 }
 
 Settings replaySettings(const Dataset& dataset, const ExperimentOptions& options, std::uint64_t seed) {
-  constexpr double kTenDegrees = 0.17453292519943295;
   Settings settings = settingsForDataset(dataset);
   ExplorationConfig& config = settings.exploration;
   config.hierarchical.generator = CandidateGenerator::Workspace;
   config.hierarchical.exclude_executed = true;
   config.recorded_candidates = true;
-  config.serve_distance_m = 0.10;
-  config.serve_angle_rad = kTenDegrees;
+  config.serve_distance_m = 0.10;  // and 10 deg, as the settings have it
   config.scan.initial_frames = 1;
   config.steps = 10;
   prepare(settings, options, seed);
