@@ -217,6 +217,17 @@ TEST(TableRun, HierarchicalRunsShareTheFirstScanAndVisitLess) {
   EXPECT_EQ(uniform.stop_reason, "cut off after 2 steps");
 }
 
+TEST(TableRun, UnknownNodesHideAThinObjectFromCoarseRaysUnlessTheyAreRefined) {
+  const TableSetup setup = setUpTable(elongatedStandIn(), 0.20, 2, {});
+  const RunSpec coarse{.coarse_levels = 3}, refined{.coarse_levels = 3, .refine_unknown = true};
+  const RunResult hidden = runOnTable(setup, coarse, 1, {}), seen = runOnTable(setup, refined, 1, {});
+  EXPECT_EQ(hidden.scans, 1);
+  EXPECT_EQ(seen.scans, 3);
+  EXPECT_GT(seen.coverage.value(), hidden.coverage.value() + 0.1);
+  EXPECT_EQ(refined.label(), "m=3 resume refine unknown");
+  EXPECT_FALSE(refined.graded());
+}
+
 TEST(TableRun, AnInterruptionEndsIt) {
   const TableSetup setup = setUpTable(compactStandIn(), 0.35, 2, makeTiny);
   std::stop_source stop;

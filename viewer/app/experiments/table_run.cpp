@@ -162,6 +162,7 @@ ExplorationConfig configOf(const TableSetup& setup, const RunSpec& spec) {
   config.hierarchical.child_start = spec.start;
   config.hierarchical.exclude_executed = !spec.repeat_views;
   if (spec.min_overlap > 0.0) config.hierarchical.min_overlap = spec.min_overlap;
+  if (spec.refine_unknown) config.hierarchical.refine_unknown = true;
   config.octree.occupancy.inner = spec.inner;
   return config;
 }

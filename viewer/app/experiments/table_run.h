@@ -40,11 +40,12 @@ struct RunSpec {
   int coarse_levels = 0;  ///< m; 0 = uniform ray tracing
   ChildStart start = ChildStart::Resume;
   InnerRule inner = InnerRule::Max;
-  bool repeat_views = false;  ///< views that were taken may be chosen again, as the paper has it
-  double min_overlap = 0.0;   ///< share of known surface instead of h_oc (D-A15), 0 = off
-  std::string label() const;  ///< "m=2 resume"
+  bool repeat_views = false;    ///< views that were taken may be chosen again, as the paper has it
+  double min_overlap = 0.0;     ///< share of known surface instead of h_oc (D-A15), 0 = off
+  bool refine_unknown = false;  ///< coarse unknown nodes are refined as well (D-A4)
+  std::string label() const;    ///< "m=2 resume"
   /// Runs with other rules than the specification's own are printed, not graded.
-  bool graded() const { return !repeat_views && min_overlap == 0.0; }
+  bool graded() const { return !repeat_views && min_overlap == 0.0 && !refine_unknown; }
 };
 
 /// What one planning step did.

@@ -46,9 +46,10 @@ TableSetup setUpTable(const ObjectSource& source, double size_m, int steps,
 
 std::string RunSpec::label() const {
   const char* mode = coarse_levels == 0 ? "uniform" : start == ChildStart::Resume ? "resume" : "restart";
-  return fmt::format("m={} {}{}{}{}", coarse_levels, mode, inner == InnerRule::Mean ? " mean" : "",
+  return fmt::format("m={} {}{}{}{}{}", coarse_levels, mode, inner == InnerRule::Mean ? " mean" : "",
                      repeat_views ? " repeats" : "",
-                     min_overlap > 0 ? fmt::format(" overlap {:g} %", 100 * min_overlap) : "");
+                     min_overlap > 0 ? fmt::format(" overlap {:g} %", 100 * min_overlap) : "",
+                     refine_unknown ? " refine unknown" : "");
 }
 
 }  // namespace vantage::experiments
