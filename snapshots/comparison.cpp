@@ -9,7 +9,7 @@
 #include "io/error.h"
 #include "snapshots/contact_sheet.h"
 #include "snapshots/snapshot.h"
-#include "snapshots/step_maps.h"
+#include "viewer/step_maps.h"
 
 namespace vantage {
 namespace {

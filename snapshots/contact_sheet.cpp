@@ -4,9 +4,9 @@
 #include <set>
 #include <stdexcept>
 
-#include "snapshots/step_maps.h"
 #include "viewer/legend.h"
 #include "viewer/page.h"
+#include "viewer/step_maps.h"
 
 namespace vantage {
 namespace {

@@ -8,8 +8,8 @@
 #include "io/error.h"
 #include "io/suggest.h"
 #include "snapshots/contact_sheet.h"
-#include "snapshots/step_maps.h"
 #include "viewer/captions.h"
+#include "viewer/step_maps.h"
 
 namespace vantage {
 namespace {

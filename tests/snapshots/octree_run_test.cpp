@@ -9,8 +9,8 @@
 #include "io/error.h"
 #include "snapshots/comparison.h"
 #include "snapshots/snapshot.h"
-#include "snapshots/step_maps.h"
 #include "tests/support/synthetic_record.h"
+#include "viewer/step_maps.h"
 
 namespace vantage {
 namespace {

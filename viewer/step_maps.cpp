@@ -1,4 +1,4 @@
-#include "snapshots/step_maps.h"
+#include "viewer/step_maps.h"
 
 #include "core/exploration/planner_kind.h"
 

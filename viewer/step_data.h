@@ -1,0 +1,26 @@
+#pragma once
+
+#include <memory>
+
+#include "viewer/scene_frame.h"
+
+namespace vantage {
+
+/// One step as the window shows it, or a file shown like one: immutable, shared between threads. Copies are
+/// cheap and keep what they share alive.
+struct StepData {
+  std::shared_ptr<const RunHeader> header;
+  std::shared_ptr<const StepRecord> record;
+  std::shared_ptr<const StateGrid> states;        ///< of the map that the step was planned on
+  std::shared_ptr<const TsdfVolume> volume;       ///< null for octree planners
+  std::shared_ptr<const OccupancyOctree> octree;  ///< null for contour planners
+  std::shared_ptr<const StatePyramid> pyramid;    ///< all levels; null unless planned on the octree
+  std::shared_ptr<const RayTree> tree;            ///< null unless planned on the octree
+
+  /// Nothing is shown; frame() must not be called.
+  bool empty() const { return !header || !record || !states; }
+  /// Refers to this data, which must outlive the frame's use; any copy of it keeps it alive. \pre !empty()
+  SceneFrame frame() const { return {*header, *record, *states, &header->truth, pyramid.get(), tree.get()}; }
+};
+
+}  // namespace vantage
