@@ -1,0 +1,66 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/gpu/gl_context.h"
+#include "viewer/image.h"
+#include "viewer/panels/widgets.h"
+#include "viewer/preferences.h"
+#include "viewer/scene_frame.h"
+#include "viewer/view_settings.h"
+
+namespace vantage {
+
+class Commands;
+class InspectorModel;
+
+/// What the inspector needs from above.
+struct InspectorPorts {
+  /// A picture of a view with caption and legend, as snapshots make it.
+  std::function<RgbImage(const SceneFrame&, const ViewSettings&, GlContext&, int width, int height)> picture;
+  std::function<void(const std::string&)> copy;           ///< to the clipboard; may be empty
+  std::function<std::string()> pasted = nullptr;          ///< from the clipboard; may be empty
+  std::function<void()> wake = [] {};                     ///< called from any thread: draw a frame soon
+  std::function<void(const std::string&)> log = nullptr;  ///< details for the log; may be empty
+};
+
+/// The contents of the inspector's window: panels around the 3-D view. Knows no window system; whoever owns a
+/// window, or plays one, gives it OpenGL, input and time.
+class Inspector {
+ public:
+  /// The context must outlive the inspector. \throws std::runtime_error if OpenGL lacks what is needed.
+  Inspector(GlContext& context, InspectorPorts ports, Preferences preferences);
+  ~Inspector();
+  Inspector(const Inspector&) = delete;
+
+  /// Opens files that the program knows: a run, a map, a scene, a cloud, a recipe, a configuration. What
+  /// cannot be opened is told in the window.
+  void open(const std::vector<std::filesystem::path>& files);
+
+  /// Takes over finished background work and lets time pass; true if a frame should be drawn.
+  bool update(double elapsed_s);
+  /// Submits one frame to Dear ImGui, between UiHost::begin() and end(), and renders the 3-D view if
+  /// something in it changed. \param pixel_scale pixels of the framebuffer for one unit of the window (HiDPI)
+  void draw(double pixel_scale);
+  /// Nothing is loading, computing, playing or waiting to be refined.
+  bool idle() const;
+  bool wantsToClose() const;
+
+  /// Theme and text height for the host, window and all else that is kept for the next start.
+  const Preferences& preferences() const;
+  const Widgets& widgets() const;
+  const Commands& commands() const;
+  InspectorModel& model();
+  /// Pictures of the 3-D view that were rendered so far.
+  std::uint64_t picturesRendered() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,216 @@
+#include "viewer/inspector_model.h"
+
+#include <algorithm>
+
+#include "viewer/map_session.h"
+
+namespace vantage {
+namespace {
+
+constexpr double kFollowEvery_s = 0.5;
+constexpr double kInfoShown_s = 8.0;
+constexpr std::size_t kMostNotices = 4;
+
+// Names of background work: the newest of a name replaces the one before.
+const std::string kOpen = "open", kLoad = "load step", kPrepare = "prepare", kFollow = "follow";
+
+PlannerKind plannerOfStep(const StepData& data) {
+  const std::string& name = data.record->planner.empty() ? data.header->planner : data.record->planner;
+  return name.empty() ? PlannerKind::Contour : plannersFromText(name).front();
+}
+
+}  // namespace
+
+InspectorModel::InspectorModel(std::function<void()> wake) : what_if_(work_), work_(std::move(wake)) {
+  work_.onFailure([this](const std::string& name, const std::string& message) {
+    if (name == kOpen) opening_ = false;
+    say(Notice::Level::Error, message);
+  });
+}
+
+InspectorModel::~InspectorModel() = default;
+
+void InspectorModel::say(Notice::Level level, std::string text) {
+  const auto same = std::ranges::find(notices_, text, &Notice::text);
+  if (same != notices_.end()) notices_.erase(same);
+  notices_.push_back({level, std::move(text), 0.0});
+  if (notices_.size() > kMostNotices) notices_.erase(notices_.begin());
+}
+
+bool InspectorModel::loading() const {
+  return opening_ || (isRun() && loaded_ != place_.step);
+}
+
+bool InspectorModel::idle() const {
+  return !player.playing() && !loading() && work_.running().empty();
+}
+
+void InspectorModel::open(const std::filesystem::path& file) {
+  opening_ = true;
+  work_.start(kOpen, [this, file](const RunControl& control) -> BackgroundWork::Finish {
+    control.report("opening " + file.filename().string(), 0, 0);
+    if (kindOf(file) == FileKind::Run) {
+      auto session = std::make_shared<RunSession>(file);
+      return [this, session, file] { takeOver(session, file); };
+    }
+    StepData data = openAsStep(file);
+    return [this, data = std::move(data), file] {
+      takeOver(nullptr, file);
+      show(data, 0);
+    };
+  });
+}
+
+void InspectorModel::takeOver(std::shared_ptr<RunSession> session, std::filesystem::path file) {
+  opening_ = false;
+  work_.cancel(kLoad);
+  work_.cancel(kPrepare);
+  work_.cancel(kFollow);
+  file_ = std::move(file);
+  session_ = std::move(session);
+  player.pause();
+  selected_view.reset();
+  what_if_.clear();
+  recorded_ = {};
+  loaded_ = -1;
+  place_ = {};
+  ++revision_;
+  steps_.clear();
+  finished_ = true;
+  if (!session_) return;
+  setSteps(session_->summaries());
+  finished_ = session_->finished();
+  if (steps_.empty())
+    say(Notice::Level::Info, file_.filename().string() + ": no step is finished yet; it is followed");
+  else
+    load(0);
+}
+
+void InspectorModel::setSteps(std::vector<StepSummary> steps) {
+  steps_ = std::move(steps);
+  if (place_.step >= static_cast<int>(steps_.size()))
+    place_.step = std::max(0, static_cast<int>(steps_.size()) - 1);
+}
+
+void InspectorModel::goTo(TimelinePlace place) {
+  if (steps_.empty()) {
+    place_.stage = std::clamp(place.stage, 0, static_cast<int>(stages().size()) - 1);
+    return;
+  }
+  place.step = std::clamp(place.step, 0, static_cast<int>(steps_.size()) - 1);
+  const bool other = place.step != place_.step || loaded_ != place.step;
+  place_.step = place.step;
+  place_.stage = std::clamp(place.stage, 0, static_cast<int>(stages().size()) - 1);
+  if (other) load(place.step);
+}
+
+void InspectorModel::next() {
+  TimelinePlace place = place_;
+  if (player.next(place, static_cast<int>(steps_.size()), static_cast<int>(stages().size()))) goTo(place);
+}
+
+void InspectorModel::previous() {
+  TimelinePlace place = place_;
+  if (player.previous(place, static_cast<int>(stages().size()))) goTo(place);
+}
+
+void InspectorModel::load(int index) {
+  const int step = steps_[index].step;
+  work_.cancel(kPrepare);
+  work_.start(kLoad, [this, session = session_, step, index](const RunControl& control) {
+    control.report("loading step " + std::to_string(step), 0, 0);
+    StepData data = session->load(step);
+    return BackgroundWork::Finish([this, data = std::move(data), index] { show(data, index); });
+  });
+}
+
+void InspectorModel::show(StepData data, int index) {
+  recorded_ = std::move(data);
+  loaded_ = index;
+  ++revision_;
+  selected_view.reset();
+  what_if_.setStep(recorded_, nullptr);
+  if (!session_ || recorded_.record->closing || index != place_.step) return;
+  work_.start(kPrepare, [this, session = session_, data = recorded_, index](const RunControl& control) {
+    control.report("preparing what-if", 0, 0);
+    auto context = makeWhatIfContext(data, session->exclusionsBefore(data.record->step));
+    return BackgroundWork::Finish([this, context = std::move(context), index] {
+      if (loaded_ == index) what_if_.setStep(recorded_, context);
+    });
+  });
+}
+
+void InspectorModel::follow() {
+  work_.start(kFollow, [this, session = session_](const RunControl&) {
+    const Followed news = session->refresh();
+    std::vector<StepSummary> steps;
+    if (news.grown || news.replaced || news.finished) steps = session->summaries();
+    return BackgroundWork::Finish([this, news, steps = std::move(steps)]() mutable {
+      const std::string name = file_.filename().string();
+      if (news.gone) {
+        finished_ = true;
+        say(Notice::Level::Warning,
+            name + " is gone or can no longer be read; what is loaded stays, other steps may be lost");
+        return;
+      }
+      if (news.replaced) {
+        say(Notice::Level::Info, name + " was written anew; it is opened again");
+        open(file_);
+        return;
+      }
+      if (news.grown) {
+        const bool at_end = place_.step + 1 >= static_cast<int>(steps_.size());
+        const bool first = steps_.empty();
+        setSteps(std::move(steps));
+        if (first || (at_end && what_if_.state() == WhatIfState::Recorded))
+          goToStep(static_cast<int>(steps_.size()) - 1);
+      }
+      if (news.finished) finished_ = true;
+    });
+  });
+}
+
+bool InspectorModel::update(double elapsed_s) {
+  bool changed = work_.poll();
+  const std::uint64_t before = revision_;
+  if (player.playing() && !loading()) {
+    const TimelinePlace at = player.advanced(place_, static_cast<int>(steps_.size()),
+                                             static_cast<int>(stages().size()), elapsed_s);
+    if (at != place_) {
+      goTo(at);
+      changed = true;
+    }
+  }
+  since_follow_s_ += elapsed_s;
+  if (growing() && since_follow_s_ >= kFollowEvery_s) {
+    since_follow_s_ = 0.0;
+    follow();
+  }
+  for (Notice& notice : notices_) notice.age_s += elapsed_s;
+  changed |= std::erase_if(notices_, [](const Notice& n) {
+               return n.level == Notice::Level::Info && n.age_s > kInfoShown_s;
+             }) > 0;
+  return changed || revision_ != before;
+}
+
+const StepData& InspectorModel::shown() const {
+  return what_if_.shown().empty() ? recorded_ : what_if_.shown();
+}
+
+PlannerKind InspectorModel::planner() const {
+  if (!recorded_.empty()) return plannerOfStep(recorded_);
+  return PlannerKind::Contour;
+}
+
+const std::vector<StageView>& InspectorModel::stages() const {
+  return stageViews(planner());
+}
+
+std::optional<std::uint32_t> InspectorModel::explainedView() const {
+  if (selected_view) return selected_view;
+  const StepData& data = shown();
+  if (data.empty() || !data.record->hasView()) return std::nullopt;
+  return data.record->chosen()->id;
+}
+
+}  // namespace vantage

@@ -1,0 +1,198 @@
+// What is shown and how: layers with opacity, size and colour map, slices, clipping box, bookmarks.
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+
+#include "viewer/panels/panel.h"
+
+namespace vantage {
+namespace {
+
+struct LayerEntry {
+  Layer layer;
+  const char* title;
+  bool scaled = false;  ///< it has a colour scale
+};
+
+struct LayerGroup {
+  const char* title;
+  std::vector<LayerEntry> layers;
+};
+
+const std::vector<LayerGroup>& layerGroups() {
+  static const std::vector<LayerGroup> groups = {
+      {"Map",
+       {{Layer::Occupied, "occupied voxels"},
+        {Layer::Unknown, "frontier of unknown space"},
+        {Layer::Free, "free space"},
+        {Layer::Slices, "slices"},
+        {Layer::Octree, "octree nodes"},
+        {Layer::Truth, "true scene"}}},
+      {"Surface",
+       {{Layer::Surface, "fused surface"},
+        {Layer::Segments, "segments by saliency", true},
+        {Layer::SegmentRanks, "order of the segments"}}},
+      {"Contours", {{Layer::ContourVoxels, "contour voxels"}, {Layer::ContourPoints, "contour points"}}},
+      {"Views",
+       {{Layer::Candidates, "candidate positions"},
+        {Layer::UtilitySphere, "utility of candidates", true},
+        {Layer::RankedViews, "ranked views", true},
+        {Layer::ChosenView, "chosen view"},
+        {Layer::Path, "path"}}},
+      {"What a view sees",
+       {{Layer::HitVoxels, "voxels that it counts"},
+        {Layer::Occluders, "occluders"},
+        {Layer::CoarseRays, "coarse rays"},
+        {Layer::RefinedRays, "refined rays"}}},
+      {"Sensor", {{Layer::Sensor, "sensor"}, {Layer::DepthImage, "depth image"}}},
+      {"Frame",
+       {{Layer::Workspace, "workspace"}, {Layer::ObjectBox, "object's box"}, {Layer::Axes, "axes"}}}};
+  return groups;
+}
+
+void colorMap(PanelContext& context, const std::string& name, LayerLook& look) {
+  int chosen = !look.color_map ? 0 : *look.color_map == ColorMap::Viridis ? 1 : 2;
+  if (!context.widgets.combo(name + "/colour map", "colours", {"own", "viridis", "cividis"}, chosen,
+                             ImGui::GetFontSize() * 8.0))
+    return;
+  look.color_map.reset();
+  if (chosen > 0) look.color_map = chosen == 1 ? ColorMap::Viridis : ColorMap::Cividis;
+}
+
+void layerDetails(PanelContext& context, const LayerEntry& entry, const std::string& name) {
+  LayerLook& look = context.preferences.view.look(entry.layer);
+  const double width = ImGui::GetFontSize() * 8.0;
+  ImGui::Indent();
+  context.widgets.slider(name + "/opacity", "opacity", look.opacity, 0.0, 1.0, "%.2f", false, width);
+  context.widgets.slider(name + "/size", "size", look.size, 0.2, 5.0, "%.1f x", true, width);
+  if (entry.scaled) colorMap(context, name, look);
+  ImGui::Unindent();
+}
+
+/// The step has nothing for a layer that is on.
+bool isEmpty(const PanelContext& context, Layer layer) {
+  return context.preferences.view.layers.has(layer) && !context.model.shown().empty() &&
+         !context.scene.hasContent(layer);
+}
+
+void layerRow(PanelContext& context, const LayerEntry& entry) {
+  const std::string name = "layers/" + std::string(layerName(entry.layer));
+  ViewSettings& view = context.preferences.view;
+  bool on = view.layers.has(entry.layer);
+  const float more = ImGui::GetFrameHeight();
+  if (context.widgets.toggle(name, entry.title, on)) view.layers.set(entry.layer, on);
+  if (isEmpty(context, entry.layer)) {
+    ImGui::SameLine();
+    ImGui::TextDisabled("(none)");
+    tip("this step has nothing of the kind");
+  }
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - more);
+  ImGuiStorage& storage = *ImGui::GetStateStorage();
+  const ImGuiID id = ImGui::GetID((name + "/open").c_str());
+  const bool open = storage.GetBool(id);
+  const bool changed = view.look(entry.layer) != LayerLook{};
+  if (context.widgets.button(name + "/more",
+                             open      ? "▾"
+                             : changed ? "●"
+                                       : "▸",
+                             true, "opacity, size, colours"))
+    storage.SetBool(id, !open);
+  if (open) layerDetails(context, entry, name);
+}
+
+void styleRows(PanelContext& context) {
+  LayerStyle& style = context.preferences.view.style;
+  const double width = ImGui::GetFontSize() * 7.0;
+  Widgets& w = context.widgets;
+  double ranked = style.ranked_views, barred = style.unreachable_views;
+  if (w.slider("style/ranked views", "ranked views", ranked, 0, 200, "%.0f", false, width))
+    style.ranked_views = static_cast<int>(ranked);
+  if (w.slider("style/unreachable views", "unreachable", barred, 0, 200, "%.0f", false, width))
+    style.unreachable_views = static_cast<int>(barred);
+  w.slider("style/frustum length", "frusta, m", style.frustum_length_m, 0.02, 0.5, "%.2f", false, width);
+  w.slider("style/saliency max", "saliency scale", style.saliency_max, 0.05, 1.0, "%.2f", false, width);
+  double level = style.octree_level.value_or(-1);
+  if (w.slider("style/octree level", "octree level", level, -1, 8, level < 0 ? "start" : "%.0f", false,
+               width)) {
+    style.octree_level.reset();
+    if (level >= 0) style.octree_level = static_cast<int>(level);
+  }
+  double rays = style.coarse_rays;
+  if (w.slider("style/coarse rays", "rays drawn", rays, 10, 5000, "%.0f", true, width))
+    style.coarse_rays = static_cast<int>(rays);
+  int factor = static_cast<int>(style.utility_factor);
+  std::vector<std::string> names;
+  for (const std::string_view name : factorNames()) names.emplace_back(name);
+  if (w.combo("style/utility factor", "candidates by", names, factor, width))
+    style.utility_factor = static_cast<UtilityFactor>(factor);
+}
+
+Box workspaceOf(const PanelContext& context) {
+  const StepData& shown = context.model.shown();
+  if (!shown.empty() && !shown.header->workspace.isEmpty()) return shown.header->workspace;
+  return {Eigen::Vector3d(-1, -1, 0), Eigen::Vector3d(1, 1, 1)};
+}
+
+void sliceRows(PanelContext& context) {
+  const Box box = workspaceOf(context);
+  static constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
+  ViewSettings& view = context.preferences.view;
+  for (int axis = 0; axis < 3; ++axis) {
+    SlicePlane& plane = view.style.slices[axis];
+    const std::string name = std::string("slices/") + kAxes[axis];
+    if (context.widgets.toggle(name, kAxes[axis], plane.shown) && plane.shown)
+      view.layers.set(Layer::Slices, true);
+    ImGui::SameLine();
+    double at_m = plane.at_m.value_or(box.center()[axis]);
+    ImGui::BeginDisabled(!plane.shown);
+    if (context.widgets.slider(name + "/at", "", at_m, box.min()[axis], box.max()[axis], "%.3f m"))
+      plane.at_m = at_m;
+    ImGui::EndDisabled();
+  }
+}
+
+void clipRows(PanelContext& context) {
+  static constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
+  const Box box = workspaceOf(context);
+  std::optional<Box>& clip = context.preferences.view.clip;
+  bool on = clip.has_value();
+  if (context.widgets.toggle("clip/on", "show only a box", on)) {
+    clip.reset();
+    if (on) clip = box;
+  }
+  if (!clip) return;
+  const double half = (ImGui::GetContentRegionAvail().x - ImGui::GetFontSize() * 2.0) / 2.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string name = std::string("clip/") + kAxes[axis];
+    double low = clip->min()[axis], high = clip->max()[axis];
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(kAxes[axis]);
+    ImGui::SameLine();
+    const bool moved_low = context.widgets.slider(name + " from", "", low, box.min()[axis], box.max()[axis],
+                                                  "%.2f", false, half);
+    ImGui::SameLine();
+    const bool moved_high =
+        context.widgets.slider(name + " to", "", high, box.min()[axis], box.max()[axis], "%.2f", false, half);
+    if (moved_low) clip->min()[axis] = std::min(low, clip->max()[axis]);
+    if (moved_high) clip->max()[axis] = std::max(high, clip->min()[axis]);
+  }
+}
+
+}  // namespace
+
+void layersPanel(PanelContext& context) {
+  for (const LayerGroup& group : layerGroups()) {
+    const bool open = ImGui::CollapsingHeader(group.title, ImGuiTreeNodeFlags_DefaultOpen);
+    context.widgets.note("layers/group " + std::string(group.title));
+    if (!open) continue;
+    for (const LayerEntry& entry : group.layers) layerRow(context, entry);
+  }
+  if (ImGui::CollapsingHeader("Slices", ImGuiTreeNodeFlags_DefaultOpen)) sliceRows(context);
+  if (ImGui::CollapsingHeader("Clipping box", ImGuiTreeNodeFlags_DefaultOpen)) clipRows(context);
+  const bool style = ImGui::CollapsingHeader("How much is drawn");
+  context.widgets.note("layers/group style");
+  if (style) styleRows(context);
+}
+
+}  // namespace vantage

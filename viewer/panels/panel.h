@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "viewer/commands.h"
+#include "viewer/inspector_model.h"
+#include "viewer/panels/theme.h"
+#include "viewer/panels/widgets.h"
+#include "viewer/preferences.h"
+#include "viewer/scene.h"
+
+namespace vantage {
+
+/// What every panel works with. A panel is a function of it: it submits widgets to Dear ImGui inside the
+/// window that is open, and changes model and view as the widgets say.
+struct PanelContext {
+  InspectorModel& model;
+  Preferences& preferences;  ///< the view (layers, looks, clip box) and everything else that is kept
+  Scene& scene;              ///< legends; nothing in it is changed by panels
+  Widgets& widgets;
+  const Commands& commands;
+  const Theme& theme;
+  std::function<void(const std::string&)> copy;  ///< to the clipboard
+};
+
+void timelinePanel(PanelContext& context);    ///< curves of the run, transport, stages
+void layersPanel(PanelContext& context);      ///< what is shown and how
+void whatIfPanel(PanelContext& context);      ///< parameters
+void candidatesPanel(PanelContext& context);  ///< table of views
+void explainPanel(PanelContext& context);     ///< one view against the winner
+void gainsPanel(PanelContext& context);       ///< predicted against realised gain
+void legendOverlay(PanelContext& context, double left, double top, double right,
+                   double bottom);  ///< over the 3-D view
+
+}  // namespace vantage

@@ -1,0 +1,230 @@
+// The run at a glance: residual unknown, coverage and gain of every step; where it stands; how it moves on.
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "viewer/captions.h"
+#include "viewer/panels/panel.h"
+#include "viewer/panels/plot.h"
+
+namespace vantage {
+namespace {
+
+struct Curves {
+  double most_unknown = 0.0, most_gain = 0.0;
+  bool has_coverage = false;
+};
+
+Curves measure(const std::vector<StepSummary>& steps) {
+  Curves curves;
+  for (const StepSummary& step : steps) {
+    curves.most_unknown = std::max(curves.most_unknown, static_cast<double>(step.unknown_voxels));
+    curves.most_gain = std::max(curves.most_gain, step.gain.value_or(0.0));
+    curves.has_coverage |= step.coverage.has_value();
+  }
+  return curves;
+}
+
+std::string nameOf(const StepSummary& step) {
+  return step.closing ? "end" : std::to_string(step.step);
+}
+
+/// Everything about a step that the strip shows, in words.
+void describe(const StepSummary& step) {
+  ImGui::BeginTooltip();
+  if (step.closing)
+    ImGui::TextUnformatted("Map after the last scan");
+  else
+    ImGui::Text("Step %d, %s planner", step.step, step.planner.c_str());
+  ImGui::Text("unknown in the workspace: %s voxels", grouped(step.unknown_voxels).c_str());
+  if (step.coverage) ImGui::Text("coverage of the objects: %.1f %%", 100.0 * *step.coverage);
+  if (step.gain) ImGui::Text("gain of the chosen view: %s rays", grouped(std::llround(*step.gain)).c_str());
+  if (step.gain_voxels) ImGui::Text("predicted: %s voxels", grouped(*step.gain_voxels).c_str());
+  if (step.realised_voxels) ImGui::Text("realised: %s voxels", grouped(*step.realised_voxels).c_str());
+  if (!step.closing && !step.gain) ImGui::TextUnformatted("no view was chosen");
+  ImGui::EndTooltip();
+}
+
+class Strip {
+ public:
+  Strip(PanelContext& context, ImVec2 low, ImVec2 high)
+      : context_(context),
+        steps_(context.model.steps()),
+        curves_(measure(steps_)),
+        draw_(*ImGui::GetWindowDrawList()),
+        low_(low),
+        high_(high),
+        slot_((high.x - low.x) / std::max<std::size_t>(1, steps_.size())) {}
+
+  void draw() {
+    const Theme& theme = context_.theme;
+    draw_.AddRectFilled(low_, high_, packed(theme.paper));
+    for (std::size_t i = 0; i < steps_.size(); ++i) drawGain(static_cast<int>(i));
+    drawPlace();
+    curve(theme.curve, curves_.most_unknown,
+          [](const StepSummary& s) { return std::optional<double>(s.unknown_voxels); });
+    if (curves_.has_coverage) curve(theme.second_curve, 1.0, [](const StepSummary& s) { return s.coverage; });
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
+      const std::string text = nameOf(steps_[i]);
+      const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+      draw_.AddText({middle(static_cast<int>(i)) - size.x / 2, high_.y - size.y}, packed(theme.faint),
+                    text.c_str());
+    }
+    draw_.AddRect(low_, high_, packed(theme.faint, 0.5));
+  }
+
+  /// Index of the step under a horizontal place.
+  int indexAt(float x) const {
+    return std::clamp(static_cast<int>((x - low_.x) / slot_), 0, static_cast<int>(steps_.size()) - 1);
+  }
+
+  void nameSteps() {
+    for (std::size_t i = 0; i < steps_.size(); ++i)
+      context_.widgets.note("timeline/step " + nameOf(steps_[i]),
+                            {low_.x + slot_ * i, low_.y, low_.x + slot_ * (i + 1), high_.y, true});
+  }
+
+ private:
+  float middle(int index) const { return low_.x + slot_ * (static_cast<float>(index) + 0.5f); }
+  float height(double share) const {
+    const float text = ImGui::GetFontSize();
+    return high_.y - text - static_cast<float>(share) * (high_.y - low_.y - text - 4.0f);
+  }
+
+  void drawGain(int index) {
+    const double gain = steps_[index].gain.value_or(0.0);
+    if (gain <= 0.0 || curves_.most_gain <= 0.0) return;
+    const float half = std::min(14.0f, slot_ * 0.28f), x = middle(index);
+    draw_.AddRectFilled({x - half, height(gain / curves_.most_gain)}, {x + half, height(0.0)},
+                        packed(context_.theme.third_curve, 0.35));
+  }
+
+  void drawPlace() {
+    const int index = context_.model.place().step;
+    if (index >= static_cast<int>(steps_.size())) return;
+    const ImVec2 a{low_.x + slot_ * index, low_.y}, b{low_.x + slot_ * (index + 1), high_.y};
+    draw_.AddRectFilled(a, b, packed(context_.theme.accent, 0.12));
+    draw_.AddRect(a, b, packed(context_.theme.accent), 0.0f, 0, 2.0f);
+  }
+
+  template <class ValueOf>
+  void curve(Rgb color, double largest, const ValueOf& value) {
+    if (largest <= 0.0) return;
+    std::optional<ImVec2> before;
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
+      const std::optional<double> v = value(steps_[i]);
+      if (!v) continue;
+      const ImVec2 at{middle(static_cast<int>(i)), height(*v / largest)};
+      if (before) draw_.AddLine(*before, at, packed(color), 2.0f);
+      draw_.AddCircleFilled(at, 3.5f, packed(color));
+      before = at;
+    }
+  }
+
+  PanelContext& context_;
+  const std::vector<StepSummary>& steps_;
+  Curves curves_;
+  ImDrawList& draw_;
+  ImVec2 low_, high_;
+  float slot_;
+};
+
+void strip(PanelContext& context) {
+  const ImVec2 low = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
+  const ImVec2 high{low.x + std::max(60.0f, size.x), low.y + std::max(40.0f, size.y)};
+  Strip strip(context, low, high);
+  ImGui::InvisibleButton("strip", {high.x - low.x, high.y - low.y});
+  context.widgets.note("timeline/strip");
+  strip.nameSteps();
+  strip.draw();
+  const int index = strip.indexAt(ImGui::GetIO().MousePos.x);
+  if (ImGui::IsItemActive() && index != context.model.place().step) context.model.goToStep(index);
+  if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) describe(context.model.steps()[index]);
+}
+
+void commandButton(PanelContext& context, const std::string& id, const std::string& label) {
+  const Command* command = context.commands.find(id);
+  if (!command) return;
+  std::string text = command->title;
+  if (command->keys.key != Key::None) text += "  (" + textOf(command->keys) + ")";
+  if (context.widgets.button("timeline/" + id.substr(id.find('.') + 1), label, command->enabled(), text))
+    command->run();
+}
+
+void transport(PanelContext& context) {
+  Player& player = context.model.player;
+  commandButton(context, "timeline.first", "|◀");
+  ImGui::SameLine(0.0f, 2.0f);
+  commandButton(context, "timeline.previous", "◀");
+  ImGui::SameLine(0.0f, 2.0f);
+  commandButton(context, "timeline.play", player.playing() ? "Pause" : "Play ▶");
+  ImGui::SameLine(0.0f, 2.0f);
+  commandButton(context, "timeline.next", "▶");
+  ImGui::SameLine(0.0f, 2.0f);
+  commandButton(context, "timeline.last", "▶|");
+  ImGui::SameLine();
+  context.widgets.toggle("timeline/loop", "loop", player.loop);
+  ImGui::SameLine();
+  context.widgets.toggle("timeline/by stage", "by stage", player.by_stage);
+  tip("playing and stepping stop at every stage inside a step");
+  ImGui::SameLine();
+  double speed = player.speed();
+  if (context.widgets.slider("timeline/speed", "", speed, Player::kSlowest, Player::kFastest, "%.2g / s",
+                             true, ImGui::GetFontSize() * 6.0))
+    player.setSpeed(speed);
+  tip("steps (or stages) a second");
+}
+
+void stageButtons(PanelContext& context) {
+  InspectorModel& model = context.model;
+  const auto& stages = model.stages();
+  for (int i = 0; i < static_cast<int>(stages.size()); ++i) {
+    if (i > 0) ImGui::SameLine(0.0f, 2.0f);
+    const bool active = i == model.place().stage && context.preferences.view.layers == stages[i].layers;
+    if (active) {
+      const Rgb color = context.theme.accent;
+      ImGui::PushStyleColor(ImGuiCol_Button, packed(color, 0.45));
+    }
+    if (context.widgets.button("timeline/stage " + stages[i].name, stages[i].title, true, stages[i].about)) {
+      model.goTo({model.place().step, i});
+      context.preferences.view.layers = stages[i].layers;
+    }
+    if (active) ImGui::PopStyleColor();
+  }
+}
+
+void curveLegend(PanelContext& context) {
+  const Curves curves = measure(context.model.steps());
+  const auto entry = [&](Rgb color, const std::string& text) {
+    ImGui::SameLine();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float size = ImGui::GetFontSize();
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + size * 0.35f}, {at.x + size, at.y + size * 0.7f},
+                                              packed(color));
+    ImGui::Dummy({size, size});
+    ImGui::SameLine(0.0f, 4.0f);
+    ImGui::TextUnformatted(text.c_str());
+  };
+  entry(context.theme.curve, "unknown, up to " + shortNumber(curves.most_unknown) + " voxels");
+  if (curves.has_coverage) entry(context.theme.second_curve, "coverage, 0..100 %");
+  if (curves.most_gain > 0.0)
+    entry(context.theme.third_curve, "gain, up to " + shortNumber(curves.most_gain));
+}
+
+}  // namespace
+
+void timelinePanel(PanelContext& context) {
+  if (context.model.steps().empty()) {
+    ImGui::TextDisabled("No run is open: a timeline appears here.");
+    return;
+  }
+  transport(context);
+  ImGui::SameLine(0.0f, 16.0f);
+  stageButtons(context);
+  ImGui::Dummy({0.0f, 0.0f});
+  curveLegend(context);
+  strip(context);
+}
+
+}  // namespace vantage

@@ -1,0 +1,235 @@
+#include "viewer/panels/view_panel.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "viewer/layers/shapes.h"
+#include "viewer/panels/plot.h"
+#include "viewer/ui_host.h"
+
+namespace vantage {
+namespace {
+
+constexpr double kInsetWidth_em = 16.0;
+
+SceneTheme sceneTheme(const Theme& theme) {
+  return {theme.paper, theme.ink};
+}
+
+ImTextureID textureId(unsigned handle) {
+  return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(handle));
+}
+
+/// Pose of a candidate of the step, whichever planner made it.
+std::optional<Pose> poseOfView(const SceneFrame& frame, std::uint32_t id) {
+  if (frame.record.utilities) {
+    for (const ViewUtility& view : frame.record.utilities->views)
+      if (view.id == id) return view.T_world_camera;
+    return std::nullopt;
+  }
+  if (!frame.record.positions) return std::nullopt;
+  return candidatePose(frame, id);
+}
+
+}  // namespace
+
+/// The view through a frustum, drawn again when view or scene change.
+struct ViewPanel::Inset {
+  UiTexture texture;
+  std::uint64_t revision = 0;
+  std::optional<std::uint32_t> view;
+  LayerSet layers;
+};
+
+ViewPanel::ViewPanel(GlContext& context, Scene& scene)
+    : scene_(scene), viewport_(context, scene), inset_(std::make_unique<Inset>()) {}
+
+ViewPanel::~ViewPanel() = default;
+
+bool ViewPanel::update(PanelContext& context) {
+  const InspectorModel& model = context.model;
+  const StepData& shown = model.shown();
+  if (shown.empty()) {
+    has_frame_ = false;
+    return false;
+  }
+  ViewSettings wanted = context.preferences.view;
+  if (const auto view = model.explainedView()) wanted.style.view_id = static_cast<int>(*view);
+  const bool new_data = !has_frame_ || revision_ != model.revision() + model.whatIf().revision();
+  const double scale = pixel_scale_ * context.preferences.font_scale;
+  if (!new_data && wanted == arranged_ && arranged_paper_ == context.theme.paper && scale == arranged_scale_)
+    return false;
+  if (new_data) scene_.setFrame(shown.frame());
+  revision_ = model.revision() + model.whatIf().revision();
+  has_frame_ = true;
+  arranged_ = wanted;
+  arranged_paper_ = context.theme.paper;
+  arranged_scale_ = scale;
+  problem_.clear();
+  try {
+    scene_.arrange(wanted, sceneTheme(context.theme), scale);
+  } catch (const std::exception& e) {
+    problem_ = e.what();
+  }
+  if (!eye_placed_) {
+    eye_placed_ = true;
+    if (context.preferences.eye)
+      scene_.setEye(*context.preferences.eye);
+    else
+      resetEye(context);
+  }
+  viewport_.requestRender();
+  return true;
+}
+
+void ViewPanel::resetEye(PanelContext& context) {
+  if (!has_frame_) return;
+  scene_.placeEye(context.preferences.view.camera, viewport_.size().shape());
+  viewport_.requestRender();
+}
+
+void ViewPanel::lookAlong(PanelContext& context, int side) {
+  if (!has_frame_) return;
+  CameraView camera = context.preferences.view.camera;
+  constexpr double kAlmostUp_rad = 1.54;
+  camera.azimuth_rad = side == 1 ? 0.0 : -std::numbers::pi / 2;
+  camera.elevation_rad = side == 2 ? kAlmostUp_rad : 0.0;
+  scene_.placeEye(camera, viewport_.size().shape());
+  viewport_.requestRender();
+}
+
+void ViewPanel::setEye(const Eye& eye) {
+  scene_.setEye(eye);
+  eye_placed_ = true;
+  viewport_.requestRender();
+}
+
+void ViewPanel::lookThroughView(PanelContext& context) {
+  const auto view = context.model.explainedView();
+  if (!view || !has_frame_) return;
+  const SceneFrame frame = context.model.shown().frame();
+  if (const auto pose = poseOfView(frame, *view)) setEye(eyeOfView(viewCamera(frame), *pose, 0.8));
+}
+
+void ViewPanel::orbitBy(double left_rad, double up_rad) {
+  scene_.setEye(orbited(scene_.eye(), left_rad, up_rad));
+  viewport_.requestRender();
+}
+
+void ViewPanel::zoomBy(double factor) {
+  const PictureSize size = viewport_.size();
+  scene_.setEye(zoomed(scene_.eye(), factor, {size.width / 2.0, size.height / 2.0}, size));
+  viewport_.requestRender();
+}
+
+std::optional<double> ViewPanel::nextRender_s() const {
+  return has_frame_ ? viewport_.nextRender_s() : std::nullopt;
+}
+
+void ViewPanel::draw(PanelContext& context, double pixel_scale) {
+  pixel_scale_ = pixel_scale;
+  const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
+  const ImVec2 size{std::max(32.0f, room.x), std::max(32.0f, room.y)};
+  viewport_.resize(static_cast<int>(std::lround(size.x * pixel_scale)),
+                   static_cast<int>(std::lround(size.y * pixel_scale)));
+  update(context);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImVec2 end{at.x + size.x, at.y + size.y};
+  if (has_frame_) {
+    viewport_.render();
+    draw.AddImage(textureId(viewport_.texture()), at, end, {0.0f, 1.0f}, {1.0f, 0.0f});
+  } else {
+    draw.AddRectFilled(at, end, packed(context.theme.paper));
+  }
+  ImGui::InvisibleButton("view", size,
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                             ImGuiButtonFlags_MouseButtonMiddle);
+  context.widgets.note("view");
+  if (has_frame_) {
+    mouse(context, at.x, at.y);
+    overlays(context, at.x, at.y);
+    inset(context, end.x, at.y);
+  }
+  legendOverlay(context, at.x, at.y, end.x, end.y);
+  if (!problem_.empty())
+    draw.AddText({at.x + 12.0f, end.y - 2 * ImGui::GetFontSize()}, packed(context.theme.warning),
+                 problem_.c_str());
+}
+
+void ViewPanel::mouse(PanelContext& context, double left, double top) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const Eigen::Vector2d at_px = pixel_scale_ * Eigen::Vector2d(io.MousePos.x - left, io.MousePos.y - top);
+  const bool hovered = ImGui::IsItemHovered();
+  if (hovered && !viewport_.dragging()) {
+    if (ImGui::IsMouseClicked(0)) viewport_.press(io.KeyShift ? Drag::Pan : Drag::Orbit, at_px);
+    if (ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2)) viewport_.press(Drag::Pan, at_px);
+    if (ImGui::IsMouseClicked(0)) pressed_at_ = at_px;
+  }
+  if (viewport_.dragging()) {
+    viewport_.move(at_px);
+    if (!ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2)) viewport_.release();
+  }
+  if (hovered && io.MouseWheel != 0.0f) viewport_.wheel(io.MouseWheel, at_px);
+  context.preferences.eye = scene_.eye();
+}
+
+void ViewPanel::overlays(PanelContext& context, double left, double top) {
+  const auto view = context.model.selected_view;
+  if (!view) return;
+  const SceneFrame frame = context.model.shown().frame();
+  const auto pose = poseOfView(frame, *view);
+  if (!pose) return;
+  const Eye eye = scene_.eye();
+  const PictureSize size = viewport_.size();
+  const FrustumCorners corners = frustumCorners(viewCamera(frame), *pose, 0.2);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const auto line = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b, float width) {
+    const auto from = pixelOf(eye, a, size), to = pixelOf(eye, b, size);
+    if (!from || !to) return;
+    const auto place = [&](const Eigen::Vector2d& p) {
+      return ImVec2(static_cast<float>(left + p.x() / pixel_scale_),
+                    static_cast<float>(top + p.y() / pixel_scale_));
+    };
+    draw.AddLine(place(*from), place(*to), packed(context.theme.accent), width);
+  };
+  draw.PushClipRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), true);
+  for (int i = 0; i < 4; ++i) {
+    line(corners.apex, corners.image[i], 2.5f);
+    line(corners.image[i], corners.image[(i + 1) % 4], 2.5f);
+  }
+  draw.PopClipRect();
+}
+
+void ViewPanel::inset(PanelContext& context, double right, double top) {
+  const auto view = context.model.explainedView();
+  if (!context.preferences.show_inset || !view) return;
+  const SceneFrame frame = context.model.shown().frame();
+  const auto pose = poseOfView(frame, *view);
+  if (!pose) return;
+  const PinholeCamera camera = viewCamera(frame);
+  const double width = kInsetWidth_em * ImGui::GetFontSize();
+  const double height = std::clamp(width * camera.height / camera.width, 40.0, 2.0 * width);
+  Inset& inset = *inset_;
+  const LayerSet layers = {Layer::Surface, Layer::Occupied, Layer::HitVoxels, Layer::Occluders};
+  if (inset.view != view || inset.revision != revision_) {
+    inset.view = view;
+    inset.revision = revision_;
+    vtkRenderer* renderer = scene_.inset(eyeOfView(camera, *pose, 0.8), layers);
+    vtkRenderer* const renderers[] = {renderer};
+    inset.texture.set(viewport_.picture(renderers, static_cast<int>(width * pixel_scale_),
+                                        static_cast<int>(height * pixel_scale_)));
+  }
+  const ImVec2 low{static_cast<float>(right - width - 10.0), static_cast<float>(top + 10.0)};
+  const ImVec2 high{static_cast<float>(right - 10.0), static_cast<float>(top + 10.0 + height)};
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddImage(textureId(inset.texture.handle()), low, high);
+  draw.AddRect(low, high, packed(context.theme.chosen), 0.0f, 0, 2.0f);
+  const std::string title = "what view " + std::to_string(*view) + " is predicted to see";
+  draw.AddText({low.x, high.y + 2.0f}, packed(context.theme.ink), title.c_str());
+  context.widgets.note("view/inset", {low.x, low.y, high.x, high.y, true});
+}
+
+}  // namespace vantage

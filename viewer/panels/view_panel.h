@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "core/gpu/gl_context.h"
+#include "viewer/panels/panel.h"
+#include "viewer/viewport.h"
+
+namespace vantage {
+
+/// The 3-D view: the scene under the mouse, what is hovered, selected and measured, and the view through the
+/// explained frustum as an inset.
+class ViewPanel {
+ public:
+  ViewPanel(GlContext& context, Scene& scene);
+  ~ViewPanel();
+
+  /// Brings the scene to model and settings. True if a picture will be drawn.
+  bool update(PanelContext& context);
+  /// Fills what is left of the window that is open.
+  void draw(PanelContext& context, double pixel_scale);
+  /// Seconds until the view wants to be drawn again; nothing = not before the next change.
+  std::optional<double> nextRender_s() const;
+
+  Viewport& viewport() { return viewport_; }
+  /// Puts the eye where pictures have it.
+  void resetEye(PanelContext& context);
+  /// Looks along an axis, z upward: 0 from the front (-y), 1 from the right (+x), 2 from above.
+  void lookAlong(PanelContext& context, int side);
+  void setEye(const Eye& eye);
+  /// Looks through the explained view.
+  void lookThroughView(PanelContext& context);
+  void orbitBy(double left_rad, double up_rad);
+  void zoomBy(double factor);
+
+ private:
+  void mouse(PanelContext& context, double left, double top);
+  void overlays(PanelContext& context, double left, double top);
+  void inset(PanelContext& context, double right, double top);
+
+  Scene& scene_;
+  Viewport viewport_;
+  double pixel_scale_ = 1.0;
+  std::uint64_t revision_ = 0;
+  bool has_frame_ = false, eye_placed_ = false;
+  ViewSettings arranged_;
+  Rgb arranged_paper_;
+  double arranged_scale_ = 0.0;
+  std::string problem_;
+  Eigen::Vector2d pressed_at_ = Eigen::Vector2d::Zero();
+  struct Inset;
+  std::unique_ptr<Inset> inset_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,102 @@
+#include "viewer/panels/widgets.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+namespace vantage {
+namespace {
+
+/// What Dear ImGui calls a widget: its label, made unique by its name.
+std::string idOf(const std::string& name, const std::string& label) {
+  return label + "##" + name;
+}
+
+}  // namespace
+
+void tip(const std::string& text) {
+  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 28.0f);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+void Widgets::note(const std::string& name, bool enabled) {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  boxes_[name] = {low.x, low.y, high.x, high.y, ImGui::IsItemVisible(), enabled};
+}
+
+bool Widgets::button(const std::string& name, const std::string& label, bool enabled,
+                     const std::string& text) {
+  ImGui::BeginDisabled(!enabled);
+  const bool pressed = ImGui::Button(idOf(name, label).c_str());
+  ImGui::EndDisabled();
+  note(name, enabled);
+  tip(text);
+  return pressed;
+}
+
+bool Widgets::toggle(const std::string& name, const std::string& label, bool& on) {
+  const bool switched = ImGui::Checkbox(idOf(name, label).c_str(), &on);
+  note(name);
+  return switched;
+}
+
+bool Widgets::choice(const std::string& name, const std::string& label, bool active) {
+  const bool pressed = ImGui::RadioButton(idOf(name, label).c_str(), active);
+  note(name);
+  return pressed;
+}
+
+bool Widgets::slider(const std::string& name, const std::string& label, double& value, double low,
+                     double high, const char* format, bool logarithmic, double width_px) {
+  ImGui::SetNextItemWidth(width_px > 0.0 ? static_cast<float>(width_px) : -FLT_MIN);
+  const ImGuiSliderFlags flags =
+      ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+  const bool moved = ImGui::SliderScalar(idOf(name, label).c_str(), ImGuiDataType_Double, &value, &low, &high,
+                                         format, flags);
+  note(name);
+  return moved;
+}
+
+bool Widgets::field(const std::string& name, std::string& text, double width_px, const std::string& hint) {
+  ImGui::SetNextItemWidth(width_px > 0.0 ? static_cast<float>(width_px) : -FLT_MIN);
+  const bool entered = ImGui::InputTextWithHint(("##" + name).c_str(), hint.c_str(), &text,
+                                                ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool left = ImGui::IsItemDeactivatedAfterEdit();
+  note(name);
+  return entered || left;
+}
+
+bool Widgets::combo(const std::string& name, const std::string& label,
+                    const std::vector<std::string>& entries, int& chosen, double width_px) {
+  ImGui::SetNextItemWidth(width_px > 0.0 ? static_cast<float>(width_px) : -FLT_MIN);
+  const bool in_range = chosen >= 0 && chosen < static_cast<int>(entries.size());
+  bool changed = false;
+  const bool open = ImGui::BeginCombo(idOf(name, label).c_str(), in_range ? entries[chosen].c_str() : "");
+  note(name);
+  if (!open) return false;
+  for (int i = 0; i < static_cast<int>(entries.size()); ++i) {
+    if (ImGui::Selectable(entries[i].c_str(), i == chosen)) {
+      chosen = i;
+      changed = true;
+    }
+    note(name + "/" + entries[i]);
+  }
+  ImGui::EndCombo();
+  return changed;
+}
+
+const WidgetBox* Widgets::find(std::string_view name) const {
+  const auto found = boxes_.find(name);
+  return found == boxes_.end() ? nullptr : &found->second;
+}
+
+std::vector<std::string> Widgets::names() const {
+  std::vector<std::string> names;
+  for (const auto& [name, box] : boxes_) names.push_back(name);
+  return names;
+}
+
+}  // namespace vantage

@@ -1,0 +1,203 @@
+#include "viewer/window.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+
+#include "viewer/ui_host.h"
+
+namespace vantage {
+namespace {
+
+constexpr double kBaseFont_px = 15.0;
+constexpr double kIdlePoll_s = 0.5;       ///< how often an idle window looks for new steps of its run
+constexpr double kBusyPoll_s = 1.0 / 30;  ///< how often one does that plays or waits for work
+constexpr double kLongestFrame_s = 0.25;  ///< a frame after a long sleep does not jump
+
+using Clock = std::chrono::steady_clock;
+
+/// What GLFW said last; it reports through a callback without context.
+std::string& lastError() {
+  static std::string text;
+  return text;
+}
+
+[[noreturn]] void fail(const std::string& what) {
+  const char* display = std::getenv("DISPLAY");
+  std::string text = what;
+  if (!lastError().empty()) text += " (" + lastError() + ")";
+  if (!display || !*display) text += "; DISPLAY is not set";
+  throw WindowUnavailable(text +
+                          "; without a display use 'vantage snapshot', or run it under xvfb-run (package "
+                          "xvfb); 'vantage doctor' says what OpenGL there is");
+}
+
+class GlfwContext final : public GlContext {
+ public:
+  explicit GlfwContext(GLFWwindow* window) : window_(window) {}
+  void makeCurrent() override { glfwMakeContextCurrent(window_); }
+  bool isCurrent() const override { return glfwGetCurrentContext() == window_; }
+  std::string describe() const override { return "window"; }
+
+ private:
+  GLFWwindow* window_;
+};
+
+}  // namespace
+
+struct Window::State {
+  GLFWwindow* window = nullptr;
+  std::unique_ptr<GlfwContext> context;
+  std::unique_ptr<UiHost> host;
+  WindowOptions options;
+  Inspector* inspector = nullptr;
+  int frames_wanted = 0;
+
+  /// Dear ImGui takes some frames to come to rest after an event.
+  void wantFrames() { frames_wanted = 3; }
+  void drawFrame(double elapsed_s);
+};
+
+namespace {
+
+/// Every event asks for frames; Dear ImGui chains its own callbacks to these.
+void watchEvents(GLFWwindow* window) {
+  static constexpr auto wanted = [](GLFWwindow* w) {
+    static_cast<Window::State*>(glfwGetWindowUserPointer(w))->wantFrames();
+  };
+  glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { wanted(w); });
+  glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { wanted(w); });
+  glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int) { wanted(w); });
+  glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int) { wanted(w); });
+  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { wanted(w); });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int, int, int) { wanted(w); });
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double, double) { wanted(w); });
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int, int, int, int) { wanted(w); });
+  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned) { wanted(w); });
+  glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+    auto* state = static_cast<Window::State*>(glfwGetWindowUserPointer(w));
+    if (state->inspector) state->inspector->open({paths, paths + count});
+    wanted(w);
+  });
+}
+
+}  // namespace
+
+Window::Window(const WindowOptions& options) : state_(std::make_unique<State>()) {
+  state_->options = options;
+  lastError().clear();
+  glfwSetErrorCallback([](int, const char* message) { lastError() = message ? message : ""; });
+  if (!glfwInit()) fail("no window: there is no usable display");
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 2);
+  // Forward compatibility is not asked for: lines would be one pixel wide.
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  glfwWindowHintString(GLFW_X11_CLASS_NAME, "Vantage");
+  glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "vantage");
+  state_->window = glfwCreateWindow(std::max(320, options.width), std::max(240, options.height),
+                                    options.title.c_str(), nullptr, nullptr);
+  if (!state_->window) {
+    const std::string reason = lastError();
+    glfwTerminate();
+    lastError() = reason;
+    fail("no window: OpenGL 3.2 is needed and the display does not offer it");
+  }
+  state_->context = std::make_unique<GlfwContext>(state_->window);
+  state_->context->makeCurrent();
+  glfwSwapInterval(1);
+  state_->host = std::make_unique<UiHost>(*state_->context);
+  state_->host->makeCurrent();
+  glfwSetWindowUserPointer(state_->window, state_.get());
+  watchEvents(state_->window);
+  ImGui_ImplGlfw_InitForOpenGL(state_->window, true);
+}
+
+Window::~Window() {
+  state_->host->makeCurrent();
+  ImGui_ImplGlfw_Shutdown();
+  state_->host.reset();
+  glfwDestroyWindow(state_->window);
+  glfwTerminate();
+}
+
+GlContext& Window::context() {
+  return *state_->context;
+}
+
+void Window::wake() {
+  glfwPostEmptyEvent();
+}
+
+void Window::copy(const std::string& utf8) {
+  glfwSetClipboardString(state_->window, utf8.c_str());
+}
+
+std::string Window::pasted() const {
+  const char* text = glfwGetClipboardString(state_->window);
+  return text ? text : "";
+}
+
+int Window::width() const {
+  int width = 0, height = 0;
+  glfwGetWindowSize(state_->window, &width, &height);
+  return width;
+}
+
+int Window::height() const {
+  int width = 0, height = 0;
+  glfwGetWindowSize(state_->window, &width, &height);
+  return height;
+}
+
+void Window::State::drawFrame(double elapsed_s) {
+  float scale_x = 1.0f, scale_y = 1.0f;
+  glfwGetWindowContentScale(window, &scale_x, &scale_y);
+  int window_width = 1, window_height = 1, width = 1, height = 1;
+  glfwGetWindowSize(window, &window_width, &window_height);
+  glfwGetFramebufferSize(window, &width, &height);
+  if (width <= 0 || height <= 0) return;  // iconified
+  const double pixel_scale = static_cast<double>(width) / std::max(1, window_width);
+  // Where the window's unit is the pixel, the monitor's scale is left for the font.
+  const Preferences& preferences = inspector->preferences();
+  host->setLook(preferences.theme,
+                kBaseFont_px * preferences.font_scale * std::max(1.0, scale_x / pixel_scale));
+  host->makeCurrent();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::GetIO().DeltaTime = static_cast<float>(elapsed_s);
+  host->begin();
+  inspector->draw(pixel_scale);
+  host->end(0, width, height);
+  glfwSwapBuffers(window);
+}
+
+void Window::show(Inspector& inspector) {
+  state_->inspector = &inspector;
+  const auto start = Clock::now();
+  auto last = start;
+  state_->wantFrames();
+  while (!glfwWindowShouldClose(state_->window) && !inspector.wantsToClose()) {
+    if (state_->frames_wanted > 0)
+      glfwPollEvents();
+    else
+      glfwWaitEventsTimeout(inspector.idle() ? kIdlePoll_s : kBusyPoll_s);
+    const auto now = Clock::now();
+    const double elapsed_s =
+        std::clamp(std::chrono::duration<double>(now - last).count(), 1e-4, kLongestFrame_s);
+    last = now;
+    const double open_s = std::chrono::duration<double>(now - start).count();
+    if (state_->options.quit_after_s > 0.0 && open_s > state_->options.quit_after_s) break;
+    if (inspector.update(elapsed_s)) state_->wantFrames();
+    if (state_->frames_wanted == 0) continue;
+    --state_->frames_wanted;
+    state_->drawFrame(elapsed_s);
+  }
+  state_->inspector = nullptr;
+}
+
+}  // namespace vantage
