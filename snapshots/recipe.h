@@ -59,14 +59,16 @@ const Recipe& recipeNamed(const std::string& name);
 ///     ranked_views = 12                      # 0..500
 ///     unreachable_views = 0                  # 0..500
 ///     frustum_length_m = 0.1
-///     slice_axis = "y"                       # normal of the slice: x, y or z
+///     slice_axis = "y"                       # normal of the one slice: x, y or z
 ///     slice_at_m = 0.05                      # its place on that axis; default: middle of the workspace
+///     slice_x_m = 0.1                        # another slice; also slice_y_m, slice_z_m
 ///     octree_level = 2                       # 0..8: nodes of 2^level voxels; default: where tracing starts
 ///     view_id = 17                           # whose rays are drawn; default: the chosen view
 ///     coarse_rays = 300                      # how many of them at most
 ///     utility_factor = "utility"             # what colours candidates: utility, unknown, occupied, distance
 ///     label_px = 15
 ///     line_scale = 1.0
+///     color_map = "cividis"                  # viridis or cividis; default: each layer's own
 ///
 ///     [camera]
 ///     azimuth_deg = -59                      # of the eye from +x about z

@@ -78,6 +78,39 @@ UtilityFactor readFactor(SceneTable& table, UtilityFactor fallback) {
   table.fail("utility_factor", "there is no factor '" + wanted + "'" + suggestion(wanted, known));
 }
 
+/// `slice_axis` shows one slice alone and `slice_at_m` places it; `slice_x_m` and its like add one each.
+void readSlices(SceneTable& table, LayerStyle& style) {
+  std::string shown;
+  for (int axis = 0; axis < 3; ++axis)
+    if (style.slices[axis].shown) shown += static_cast<char>('x' + axis);
+  const std::string axis = table.text("slice_axis", shown);
+  if (table.has("slice_axis")) {
+    if (axis != "x" && axis != "y" && axis != "z")
+      table.fail("slice_axis", "'" + axis + "' is no axis; allowed: x, y, z");
+    const SlicePlane plane{true, shown.empty() ? std::nullopt : style.slices[shown[0] - 'x'].at_m};
+    style.slices = {};
+    style.slices[axis[0] - 'x'] = plane;
+  }
+  table.accept({"slice_at_m"});
+  if (table.has("slice_at_m")) {
+    for (SlicePlane& plane : style.slices)
+      if (plane.shown) plane.at_m = table.number("slice_at_m");
+  }
+  for (int n = 0; n < 3; ++n) {
+    const std::string key = std::string("slice_") + static_cast<char>('x' + n) + "_m";
+    table.accept({key});
+    if (table.has(key)) style.slices[n] = {true, table.number(key)};
+  }
+  check(style, table, "slice_at_m");
+}
+
+ColorMap readColorMap(SceneTable& table) {
+  const std::string wanted = table.text("color_map");
+  if (wanted == "viridis") return ColorMap::Viridis;
+  if (wanted == "cividis") return ColorMap::Cividis;
+  table.fail("color_map", "there is no colour map '" + wanted + "'; allowed: viridis, cividis");
+}
+
 void readStyle(SceneTable table, LayerStyle& style) {
   for (const auto& [key, member] : kStyleNumbers) {
     style.*member = table.number(key, style.*member);
@@ -93,13 +126,9 @@ void readStyle(SceneTable table, LayerStyle& style) {
     check(style, table, key);
   }
   style.utility_factor = readFactor(table, style.utility_factor);
-  const std::string axis =
-      table.text("slice_axis", std::string(1, static_cast<char>('x' + style.slice_axis)));
-  if (axis != "x" && axis != "y" && axis != "z")
-    table.fail("slice_axis", "'" + axis + "' is no axis; allowed: x, y, z");
-  style.slice_axis = axis[0] - 'x';
-  table.accept({"slice_at_m"});
-  if (table.has("slice_at_m")) style.slice_at_m = table.number("slice_at_m");
+  readSlices(table, style);
+  table.accept({"color_map"});
+  if (table.has("color_map")) style.color_map = readColorMap(table);
   table.finish();
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkSmartPointer.h>
 
 #include "core/gpu/gl_context.h"
+#include "viewer/image.h"
 
 namespace vantage {
 
@@ -28,5 +30,12 @@ class GlWindow : public vtkGenericOpenGLRenderWindow {
  private:
   GlContext* context_ = nullptr;
 };
+
+/// Makes the context current and a window in it that draws into memory of its own. \param samples of a pixel,
+/// 0 = no smoothing
+vtkSmartPointer<GlWindow> makeMemoryWindow(GlContext& context, int samples);
+
+/// What the window drew last. \throws std::runtime_error if OpenGL fails.
+RgbImage readPicture(GlWindow& window);
 
 }  // namespace vantage

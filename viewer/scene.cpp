@@ -6,11 +6,16 @@
 #include <vtkRenderer.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <exception>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include "viewer/layers/layer.h"
+#include "viewer/layers/layer_inputs.h"
+#include "viewer/layers/prop_look.h"
 #include "viewer/legend.h"
 #include "viewer/page.h"
 #include "viewer/vtk_messages.h"
@@ -23,12 +28,6 @@ constexpr double kColumn = 286.0, kBand = 100.0, kMargin = 18.0;
 
 double unitOf(int width, int height) {
   return std::min(width / 1280.0, height / 800.0);
-}
-
-/// Direction from the focus to the eye.
-Eigen::Vector3d towardEye(const CameraView& view) {
-  return {std::cos(view.elevation_rad) * std::cos(view.azimuth_rad),
-          std::cos(view.elevation_rad) * std::sin(view.azimuth_rad), std::sin(view.elevation_rad)};
 }
 
 void writeCaption(Page& page, const Caption& caption, double unit) {
@@ -64,103 +63,175 @@ void addLights(vtkRenderer& renderer) {
   renderer.AddLight(sky);
 }
 
-}  // namespace
-
-Eye fitEye(const CameraView& view, std::span<const Eigen::Vector3d> points, double width_to_height) {
-  view.validate();
-  if (points.empty()) throw std::invalid_argument("fitEye: there is nothing to be seen");
-  Box box;
-  for (const Eigen::Vector3d& p : points) box.extend(p);
-  const Eigen::Vector3d back = towardEye(view);
-  const Eigen::Vector3d right = Eigen::Vector3d::UnitZ().cross(back).normalized(), up = back.cross(right);
-  const double tan_v = std::tan(view.fov_rad / 2), tan_h = tan_v * width_to_height;
-  Eigen::Vector3d focus = box.center();
-  double distance = std::max(1e-3, box.diagonal().norm()) / tan_v;
-  for (int round = 0; round < 40; ++round) {
-    double left = 1e9, rightmost = -1e9, bottom = 1e9, top = -1e9;
-    for (const Eigen::Vector3d& point : points) {
-      const Eigen::Vector3d p = point - focus;
-      const double depth = distance - p.dot(back);
-      const double x = p.dot(right) / depth / tan_h, y = p.dot(up) / depth / tan_v;
-      left = std::min(left, x), rightmost = std::max(rightmost, x);
-      bottom = std::min(bottom, y), top = std::max(top, y);
-    }
-    focus +=
-        right * ((left + rightmost) / 2 * distance * tan_h) + up * ((bottom + top) / 2 * distance * tan_v);
-    distance *= std::clamp(std::max(rightmost - left, top - bottom) / 2, 0.5, 2.0);
-  }
-  constexpr double kMargin = 1.02;  // nothing touches the edge
-  return {focus + back * (kMargin * distance / view.zoom), focus};
-}
-
-struct Scene::State {
-  std::optional<SceneFrame> frame;
-  LayerStyle style;
-  std::array<std::optional<LayerContent>, kLayerCount> built;
-  LayerSet shown;
-  vtkSmartPointer<vtkRenderer> view;
-  std::unique_ptr<Page> page;
-
-  void placeCamera(const CameraView& camera, double width_to_height) const;
-};
-
-void Scene::State::placeCamera(const CameraView& camera, double width_to_height) const {
-  const bool on_object = camera.object && onOctree(*frame) && !frame->header.octree->object_box.isEmpty();
-  const Box& workspace = on_object ? frame->header.octree->object_box : frame->header.workspace;
+/// What must be seen of a frame and the layers that are shown.
+std::vector<Eigen::Vector3d> mustSee(const SceneFrame& frame, const CameraView& camera,
+                                     const std::vector<const LayerContent*>& shown) {
+  const bool on_object = camera.object && onOctree(frame) && !frame.header.octree->object_box.isEmpty();
+  const Box& workspace = on_object ? frame.header.octree->object_box : frame.header.workspace;
   const Box box = workspace.isEmpty() ? Box(Eigen::Vector3d(-1, -1, 0), Eigen::Vector3d(1, 1, 1)) : workspace;
   Box seen = box;
-  const bool known_scene = frame->truth && !frame->truth->empty() && !on_object;
+  const bool known_scene = frame.truth && !frame.truth->empty() && !on_object;
   seen.min().y() -= camera.front_m.value_or(known_scene ? 0.2 : 0.0);
   seen.max().z() = seen.min().z() + camera.height_share.value_or(known_scene ? 0.8 : 1.0) * box.sizes().z();
   std::vector<Eigen::Vector3d> points;
   for (int c = 0; c < 8; ++c) points.push_back(seen.corner(static_cast<Box::CornerType>(c)));
-  for (int i = 0; i < kLayerCount; ++i) {
-    if (!shown.has(static_cast<Layer>(i)) || !built[i]) continue;
-    points.insert(points.end(), built[i]->must_see.begin(), built[i]->must_see.end());
-  }
-  const Eye eye = fitEye(camera, points, width_to_height);
-  vtkCamera* target = view->GetActiveCamera();
-  target->SetPosition(eye.position.data());
-  target->SetFocalPoint(eye.focus.data());
-  target->SetViewUp(0.0, 0.0, 1.0);
-  target->SetViewAngle(camera.fov_rad * 180.0 / std::numbers::pi);
-  view->ResetCameraClippingRange();
+  for (const LayerContent* content : shown)
+    points.insert(points.end(), content->must_see.begin(), content->must_see.end());
+  return points;
 }
 
-Scene::Scene() : state_(std::make_unique<State>()) {
+void moveCamera(vtkRenderer& renderer, const Eye& eye) {
+  vtkCamera* camera = renderer.GetActiveCamera();
+  camera->SetPosition(eye.position.data());
+  camera->SetFocalPoint(eye.focus.data());
+  camera->SetViewUp(eye.up.data());
+  camera->SetViewAngle(eye.fov_rad * 180.0 / std::numbers::pi);
+  renderer.ResetCameraClippingRange();
+}
+
+vtkSmartPointer<vtkRenderer> makeRenderer(Rgb background) {
+  auto renderer = vtkSmartPointer<vtkRenderer>::New();
+  renderer->SetBackground(background.r, background.g, background.b);
+  addLights(*renderer);
+  return renderer;
+}
+
+/// Puts the props into the renderer in this order. Those that leave keep what they have on the graphics card,
+/// so that a layer can be switched on again at no cost.
+void setProps(vtkRenderer& renderer, const std::vector<const LayerContent*>& contents) {
+  renderer.GetViewProps()->RemoveAllItems();
+  for (const LayerContent* content : contents)
+    for (const auto& prop : content->props) renderer.AddViewProp(prop);
+}
+
+}  // namespace
+
+/// A layer as it was built, and from what.
+struct BuiltLayer {
+  LayerContent content;
+  PropLooks looks;
+  LayerStyle style;
+  SceneTheme theme;
+};
+
+struct Scene::State {
+  std::optional<SceneFrame> frame;
+  std::optional<LayerInputs> inputs;  ///< of the frame
+  std::array<std::optional<BuiltLayer>, kLayerCount> built;
+  std::array<int, kLayerCount> times_built = {};
+  LayerSet shown;
+  ClipPlanes clip;
+  // A picture on a page.
+  vtkSmartPointer<vtkRenderer> page_view;
+  std::unique_ptr<Page> page;
+  // A window.
+  vtkSmartPointer<vtkRenderer> view = makeRenderer(palette::kPaper);
+  vtkSmartPointer<vtkRenderer> inset;
+  ViewSettings settings;
+  SceneTheme theme;
+  double scale = 1.0;
+  Eye eye;
+  bool eye_placed = false;
+
+  void requireFrame(const char* caller) const;
+  void build(Layer layer, const ViewSettings& wanted, const LayerStyle& base, const SceneTheme& wanted_theme);
+  void prepare(const LayerSet& layers, const ViewSettings& wanted, const LayerStyle& base,
+               const SceneTheme& wanted_theme);
+  std::vector<const LayerContent*> contents(const LayerSet& layers) const;
+  LayerStyle windowStyle() const;
+};
+
+void Scene::State::requireFrame(const char* caller) const {
+  if (!frame) throw std::logic_error(std::string("Scene::") + caller + "() before setFrame()");
+}
+
+/// Builds a layer unless it stands, and adjusts it.
+void Scene::State::build(Layer layer, const ViewSettings& wanted, const LayerStyle& base,
+                         const SceneTheme& wanted_theme) {
+  const auto i = static_cast<std::size_t>(layer);
+  const LayerLook& look = wanted.looks[i];
+  LayerStyle style = base;
+  if (look.color_map) style.color_map = look.color_map;
+  if (!built[i] || !sameStyle(layer, style, built[i]->style) || built[i]->theme != wanted_theme) {
+    built[i].reset();
+    LayerContent content = buildLayer(layer, *frame, style);
+    applyTheme(content, wanted_theme);
+    PropLooks looks(content.props);
+    built[i].emplace(BuiltLayer{std::move(content), std::move(looks), style, wanted_theme});
+    ++times_built[i];
+  }
+  built[i]->looks.apply(look, isClipped(layer) ? &clip : nullptr);
+}
+
+/// Builds and adjusts all of the layers; the first error is reported after the last layer.
+void Scene::State::prepare(const LayerSet& layers, const ViewSettings& wanted, const LayerStyle& base,
+                           const SceneTheme& wanted_theme) {
+  std::exception_ptr error;
+  clip.set(wanted.clip);
+  for (int i = 0; i < kLayerCount; ++i) {
+    if (!layers.has(static_cast<Layer>(i))) continue;
+    try {
+      build(static_cast<Layer>(i), wanted, base, wanted_theme);
+    } catch (...) {
+      if (!error) error = std::current_exception();
+    }
+  }
+  if (error) std::rethrow_exception(error);
+}
+
+std::vector<const LayerContent*> Scene::State::contents(const LayerSet& layers) const {
+  std::vector<const LayerContent*> all;
+  for (int i = 0; i < kLayerCount; ++i)
+    if (layers.has(static_cast<Layer>(i)) && built[i]) all.push_back(&built[i]->content);
+  return all;
+}
+
+LayerStyle Scene::State::windowStyle() const {
+  LayerStyle style = settings.style;
+  style.label_px *= scale;
+  style.line_scale *= scale;
+  return style;
+}
+
+Scene::Scene() {
   silenceVtk();
+  state_ = std::make_unique<State>();
 }
 Scene::~Scene() = default;
 
 void Scene::setFrame(const SceneFrame& frame) {
+  LayerInputs inputs(frame);
+  for (int i = 0; i < kLayerCount; ++i) {
+    if (!state_->inputs || !stillStands(static_cast<Layer>(i), *state_->inputs, inputs))
+      state_->built[i].reset();
+  }
   state_->frame.emplace(frame);
+  state_->inputs.emplace(std::move(inputs));
+}
+
+void Scene::forget() {
   state_->built = {};
+  state_->frame.reset();
+  state_->inputs.reset();
+  setProps(*state_->view, {});
+  if (state_->inset) setProps(*state_->inset, {});
+  state_->page_view = nullptr;
+  state_->page.reset();
 }
 
 void Scene::show(const ViewSettings& settings, const Caption& caption, PageStyle page_style, int width,
                  int height) {
-  if (!state_->frame) throw std::logic_error("Scene::show() before setFrame()");
-  settings.style.validate();
-  settings.camera.validate();
+  state_->requireFrame("show");
+  settings.validate();
   const double unit = unitOf(width, height);
   LayerStyle style = settings.style;
   style.label_px *= unit;
   style.line_scale *= std::max(0.5, unit);
-  if (style != state_->style) state_->built = {};
-  state_->style = style;
   state_->shown = settings.layers;
+  state_->prepare(settings.layers, settings, style, {});
 
-  auto view = vtkSmartPointer<vtkRenderer>::New();
-  view->SetBackground(palette::kPaper.r, palette::kPaper.g, palette::kPaper.b);
-  addLights(*view);
-  for (int i = 0; i < kLayerCount; ++i) {
-    const Layer layer = static_cast<Layer>(i);
-    if (!settings.layers.has(layer)) continue;
-    auto& built = state_->built[i];
-    if (!built) built = buildLayer(layer, *state_->frame, style);
-    for (const auto& prop : built->props) view->AddViewProp(prop);
-  }
-  state_->view = view;
+  state_->page_view = makeRenderer(palette::kPaper);
+  setProps(*state_->page_view, state_->contents(settings.layers));
   state_->page = std::make_unique<Page>(width, height);
   double view_width = width, view_height = height;
   if (page_style == PageStyle::Full) {
@@ -171,27 +242,77 @@ void Scene::show(const ViewSettings& settings, const Caption& caption, PageStyle
                           (kColumn - 6.0 - kMargin) * unit, view_height};
     drawLegend(*state_->page, column, shownNotes(), unit);
   }
-  view->SetViewport(0.0, 0.0, view_width / width, view_height / height);
-  state_->placeCamera(settings.camera, view_width / view_height);
+  state_->page_view->SetViewport(0.0, 0.0, view_width / width, view_height / height);
+  const auto points = mustSee(*state_->frame, settings.camera, state_->contents(settings.layers));
+  moveCamera(*state_->page_view, fitEye(settings.camera, points, view_width / view_height));
 }
 
 std::vector<vtkRenderer*> Scene::renderers() const {
-  if (!state_->view) return {};
-  return {state_->page->renderer(), state_->view};
+  if (!state_->page_view) return {};
+  return {state_->page->renderer(), state_->page_view};
+}
+
+void Scene::arrange(const ViewSettings& settings, const SceneTheme& theme, double scale) {
+  state_->requireFrame("arrange");
+  settings.validate();
+  state_->settings = settings;
+  state_->theme = theme;
+  state_->scale = scale;
+  state_->shown = settings.layers;
+  state_->view->SetBackground(theme.background.r, theme.background.g, theme.background.b);
+  std::exception_ptr error;
+  try {
+    state_->prepare(settings.layers, settings, state_->windowStyle(), theme);
+  } catch (...) {
+    error = std::current_exception();
+  }
+  setProps(*state_->view, state_->contents(settings.layers));
+  if (!state_->eye_placed) placeEye(settings.camera, 1.6);
+  if (error) std::rethrow_exception(error);
+}
+
+vtkRenderer* Scene::view() const {
+  return state_->view;
+}
+
+Eye Scene::eye() const {
+  return state_->eye;
+}
+
+void Scene::setEye(const Eye& eye) {
+  state_->eye = eye;
+  state_->eye_placed = true;
+  moveCamera(*state_->view, eye);
+}
+
+void Scene::placeEye(const CameraView& camera, double width_to_height) {
+  state_->requireFrame("placeEye");
+  setEye(fitEye(camera, mustSee(*state_->frame, camera, state_->contents(state_->shown)), width_to_height));
+}
+
+vtkRenderer* Scene::inset(const Eye& eye, const LayerSet& layers) {
+  state_->requireFrame("inset");
+  const Rgb& ground = state_->theme.background;
+  if (!state_->inset) state_->inset = makeRenderer(ground);
+  state_->inset->SetBackground(ground.r, ground.g, ground.b);
+  state_->prepare(layers, state_->settings, state_->windowStyle(), state_->theme);
+  setProps(*state_->inset, state_->contents(layers));
+  moveCamera(*state_->inset, eye);
+  return state_->inset;
 }
 
 const LayerContent* Scene::content(Layer layer) const {
   const auto& built = state_->built[static_cast<std::size_t>(layer)];
-  return built ? &*built : nullptr;
+  return built ? &built->content : nullptr;
 }
 
 std::vector<const LayerNotes*> Scene::shownNotes() const {
-  std::vector<const LayerNotes*> contents;
-  for (int i = 0; i < kLayerCount; ++i) {
-    const Layer layer = static_cast<Layer>(i);
-    if (state_->shown.has(layer) && content(layer)) contents.push_back(content(layer));
-  }
-  return contents;
+  const std::vector<const LayerContent*> contents = state_->contents(state_->shown);
+  return {contents.begin(), contents.end()};
+}
+
+int Scene::timesBuilt(Layer layer) const {
+  return state_->times_built[static_cast<std::size_t>(layer)];
 }
 
 }  // namespace vantage

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
+#include "viewer/eye.h"
 #include "viewer/layers/layer_notes.h"
 #include "viewer/scene_frame.h"
+#include "viewer/theme.h"
 #include "viewer/view_settings.h"
 
 class vtkRenderer;
@@ -30,7 +30,8 @@ enum class PageStyle {
 };
 
 /// What is drawn: a function of a frame and view settings. Knows no OpenGL, window or file; whoever has a
-/// context draws its renderers, in order.
+/// context draws its renderers, in order. A picture on a page is laid out by show(); a window that is looked
+/// at for long calls arrange() and draws view().
 class Scene {
  public:
   Scene();
@@ -38,32 +39,48 @@ class Scene {
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
-  /// The step to draw from now on. Layers are built when they are first shown, then kept until the next frame
-  /// or style.
+  /// The step to draw from now on. Layers are built when they are first shown and kept until something that
+  /// they depend on is another one: a product of the record, the map's version, a setting of the run, a field
+  /// of the style. What the frame refers to must outlive its use.
   void setFrame(const SceneFrame& frame);
+  /// Drops everything that was built: before another run.
+  void forget();
 
   /// Lays out a picture of the frame. \throws std::invalid_argument for settings out of range,
   /// std::logic_error without a frame.
   void show(const ViewSettings& settings, const Caption& caption, PageStyle page, int width, int height);
-
   /// Renderers of the last show(), in drawing order; owned by the scene.
   std::vector<vtkRenderer*> renderers() const;
 
-  /// What a layer adds, as built for the last show() that had it; null if it was not shown since.
+  /// Brings view() to the frame and the settings; the eye stays where it is (settings.camera counts for the
+  /// first time only). Layers that are switched off stay built. \param scale of letters and lines, for
+  /// displays with small pixels. \throws as show() does; view() then shows what could be built.
+  void arrange(const ViewSettings& settings, const SceneTheme& theme = {}, double scale = 1.0);
+  /// The one renderer of arrange(), for the scene's life.
+  vtkRenderer* view() const;
+  /// The eye of view().
+  Eye eye() const;
+  void setEye(const Eye& eye);
+  /// Puts the eye of view() where pictures have it, so that all that must be seen is. \throws
+  /// std::invalid_argument for a view out of range, std::logic_error without a frame.
+  void placeEye(const CameraView& camera, double width_to_height);
+
+  /// The layers of the last arrange() seen from somewhere else, for a picture beside the view; layers that it
+  /// lacks are built. One renderer for the scene's life, drawn in the window that draws view(), after it.
+  /// \throws as arrange() does.
+  vtkRenderer* inset(const Eye& eye, const LayerSet& layers);
+
+  /// What a layer adds, as built for the last show() or arrange() that had it; null if it was not shown
+  /// since.
   const LayerContent* content(Layer layer) const;
   /// Legend entries, scales and insets of the layers that were shown last, in drawing order.
   std::vector<const LayerNotes*> shownNotes() const;
+  /// How often a layer was built so far.
+  int timesBuilt(Layer layer) const;
 
  private:
   struct State;
   std::unique_ptr<State> state_;
 };
-
-/// Eye of a view for points that must all be seen, in a picture of the given shape. \throws
-/// std::invalid_argument for a view out of range or no points.
-struct Eye {
-  Eigen::Vector3d position, focus;
-};
-Eye fitEye(const CameraView& view, std::span<const Eigen::Vector3d> points, double width_to_height);
 
 }  // namespace vantage

@@ -18,6 +18,9 @@ struct SceneFrame {
   /// The octree's nodes at all levels, null if the step was not planned on it; `states` is its finest level.
   const StatePyramid* pyramid = nullptr;
   const RayTree* tree = nullptr;  ///< rays of the hierarchical planner; null if there are none
+  /// Another number for every content of `states` and `pyramid`: layers of the map that were built for the
+  /// same number are kept when the next frame comes. 0 = not known, nothing of the map is kept.
+  std::uint64_t map_version = 0;
 };
 
 /// Name of the planner of a step.

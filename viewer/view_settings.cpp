@@ -1,5 +1,7 @@
 #include "viewer/view_settings.h"
 
+#include <stdexcept>
+
 #include "core/geometry/check.h"
 #include "core/volume/state_pyramid.h"
 
@@ -53,7 +55,8 @@ void LayerStyle::validate() const {
   requireInRange("ranked_views", ranked_views, 0, 500);
   requireInRange("unreachable_views", unreachable_views, 0, 500);
   requireInRange("frustum_length_m", frustum_length_m, 1e-3, 10.0);
-  requireInRange("slice_axis", slice_axis, 0, 2);
+  for (const SlicePlane& slice : slices)
+    if (slice.at_m) requireInRange("slice_at_m", *slice.at_m, -1e6, 1e6);
   if (octree_level) requireInRange("octree_level", *octree_level, 0, StatePyramid::kMaxCoarseLevels);
   if (view_id) requireInRange("view_id", *view_id, 0, 100'000'000);
   requireInRange("coarse_rays", coarse_rays, 1, 100'000);
@@ -71,6 +74,26 @@ void CameraView::validate() const {
   requireInRange("zoom", zoom, 0.01, 100.0);
   if (front_m) requireInRange("front_m", *front_m, 0.0, 10.0);
   if (height_share) requireInRange("height_share", *height_share, 0.01, 1.0);
+}
+
+void LayerLook::validate() const {
+  requireInRange("opacity", opacity, 0.0, 1.0);
+  requireInRange("size", size, 0.2, 5.0);
+}
+
+bool ViewSettings::operator==(const ViewSettings& other) const {
+  const bool same_clip = clip.has_value() == other.clip.has_value() &&
+                         (!clip || (clip->min() == other.clip->min() && clip->max() == other.clip->max()));
+  return layers == other.layers && style == other.style && camera == other.camera && looks == other.looks &&
+         same_clip;
+}
+
+void ViewSettings::validate() const {
+  style.validate();
+  camera.validate();
+  for (const LayerLook& each : looks) each.validate();
+  if (clip && (clip->isEmpty() || !clip->min().allFinite() || !clip->max().allFinite()))
+    throw std::invalid_argument("clip has no inside; its lower corner must lie below its upper one");
 }
 
 }  // namespace vantage

@@ -1,11 +1,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>
+
+#include "core/geometry/grid_geometry.h"
+#include "viewer/color.h"
 
 namespace vantage {
 
@@ -18,7 +22,7 @@ enum class Layer : std::uint8_t {
   Occupied,      ///< occupied voxels
   Unknown,       ///< frontier of unknown space: its faces toward free voxels
   Free,          ///< boundary of free space
-  Slices,        ///< voxel states on a plane
+  Slices,        ///< voxel states on planes
   Octree,        ///< occupied nodes and the frontier of unknown ones at one depth of the octree
   Surface,       ///< fused surface
   Segments,      ///< the same, coloured by saliency of its segments
@@ -65,6 +69,13 @@ std::string_view factorName(UtilityFactor factor);
 std::optional<UtilityFactor> factorNamed(std::string_view name);
 std::vector<std::string_view> factorNames();
 
+/// A slice through the voxel states.
+struct SlicePlane {
+  bool shown = false;
+  std::optional<double> at_m;  ///< on the axis of its normal, world, metres; empty = middle of the workspace
+  bool operator==(const SlicePlane&) const = default;
+};
+
 /// How layers are drawn.
 struct LayerStyle {
   double unknown_opacity = 0.15;   ///< of the unknown frontier, (0, 0.15]: what is behind must stay visible
@@ -73,22 +84,27 @@ struct LayerStyle {
   int ranked_views = 24;           ///< best positions that are drawn, 0..500
   int unreachable_views = 12;      ///< better ones that could not be reached, 0..500
   double frustum_length_m = 0.10;  ///< of ranked views, metres
-  int slice_axis = 1;              ///< normal of the slice: 0 x, 1 y, 2 z
-  std::optional<double>
-      slice_at_m;  ///< its position along that axis, world, metres; empty = middle of the workspace
+  /// Slices with the normals x, y and z.
+  std::array<SlicePlane, 3> slices = {SlicePlane{}, SlicePlane{true, {}}, SlicePlane{}};
   /// Nodes of the octree layer have edges of 2^level finest voxels, 0..8; empty = where tracing starts.
   std::optional<int> octree_level;
   std::optional<int> view_id;  ///< whose rays are drawn, >= 0; empty = the chosen view, else the best
   int coarse_rays = 300;       ///< at most, evenly thinned, and their refined rays, 1..100000
   UtilityFactor utility_factor = UtilityFactor::Utility;
-  double truth_opacity = 1.0;    ///< (0, 1]; below 1 the true scene is a ghost
-  double surface_opacity = 1.0;  ///< (0, 1]
-  double label_px = 15.0;        ///< text in the scene, pixels
-  double line_scale = 1.0;       ///< widths of lines and points are multiplied by it, > 0
+  double truth_opacity = 1.0;         ///< (0, 1]; below 1 the true scene is a ghost
+  double surface_opacity = 1.0;       ///< (0, 1]
+  double label_px = 15.0;             ///< text in the scene, pixels
+  double line_scale = 1.0;            ///< widths of lines and points are multiplied by it, > 0
+  std::optional<ColorMap> color_map;  ///< of layers with a scale; empty = each layer's own
   bool operator==(const LayerStyle&) const = default;
   /// \throws std::invalid_argument naming field, value and range.
   void validate() const;
 };
+
+/// Colours of a layer with a scale. \param own those it has unless the style says otherwise
+inline ColorMap mapOf(const LayerStyle& style, ColorMap own = ColorMap::Viridis) {
+  return style.color_map.value_or(own);
+}
 
 /// Where the scene is looked at from; the same for every step, so that pictures can be compared. Sensors,
 /// views and paths that are shown and leave the workspace make the picture wider.
@@ -109,12 +125,31 @@ struct CameraView {
   void validate() const;
 };
 
-/// A view of a step: layers, style, eye. Scene::show() draws it.
+/// What is adjusted of one layer.
+struct LayerLook {
+  double opacity = 1.0;               ///< multiplies that of the layer, [0, 1]
+  double size = 1.0;                  ///< multiplies widths of lines, points and letters, [0.2, 5]
+  std::optional<ColorMap> color_map;  ///< empty = that of the style, else the layer's own
+  bool operator==(const LayerLook&) const = default;
+  /// \throws std::invalid_argument naming field, value and range.
+  void validate() const;
+};
+
+/// A view of a step: layers, style, eye. Scene::show() and Scene::arrange() draw it.
 struct ViewSettings {
   LayerSet layers;
   LayerStyle style;
   CameraView camera;
-  bool operator==(const ViewSettings&) const = default;
+  std::array<LayerLook, kLayerCount> looks = {};
+  /// What fills space (maps, surfaces, contours) is drawn only in this box, world, metres; empty =
+  /// everywhere. Frusta, rays, paths, axes and the boxes of workspace and object are always whole.
+  std::optional<Box> clip;
+
+  LayerLook& look(Layer layer) { return looks[static_cast<std::size_t>(layer)]; }
+  const LayerLook& look(Layer layer) const { return looks[static_cast<std::size_t>(layer)]; }
+  bool operator==(const ViewSettings& other) const;
+  /// Style, eye, looks and clip box. \throws std::invalid_argument naming field, value and range.
+  void validate() const;
 };
 
 }  // namespace vantage

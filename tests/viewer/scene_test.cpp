@@ -144,7 +144,8 @@ TEST(Layers, SliceEndsAtTheWorkspace) {
   const SyntheticRun& run = sharedRun();
   for (int axis = 0; axis < 3; ++axis) {
     LayerStyle style;
-    style.slice_axis = axis;
+    style.slices = {};
+    style.slices[axis].shown = true;
     const LayerContent content = buildLayer(Layer::Slices, run.frame(), style);
     ASSERT_NE(actorOf(content), nullptr);
     const double* bounds = actorOf(content)->GetBounds();
@@ -155,7 +156,7 @@ TEST(Layers, SliceEndsAtTheWorkspace) {
     allowed.min().array() -= run.header.volume.voxel_size_m;
     allowed.max().array() += run.header.volume.voxel_size_m;
     EXPECT_TRUE(allowed.contains(drawn)) << "axis " << axis;
-    style.slice_at_m = allowed.max()[axis] + 0.1;
+    style.slices[axis].at_m = allowed.max()[axis] + 0.1;
     EXPECT_TRUE(buildLayer(Layer::Slices, run.frame(), style).props.empty()) << "axis " << axis;
   }
 }

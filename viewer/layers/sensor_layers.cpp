@@ -46,14 +46,14 @@ std::pair<double, double> depthRange(const DepthImage& depth) {
 }
 
 /// Depth in colours; invalid pixels as a light grid, so that they can't be mistaken for a depth.
-RgbImage depthPicture(const DepthImage& depth, double low, double high) {
+RgbImage depthPicture(const DepthImage& depth, ColorMap map, double low, double high) {
   RgbImage image(depth.width, depth.height);
   for (int v = 0; v < depth.height; ++v) {
     for (int u = 0; u < depth.width; ++u) {
       const float d = depth.at(u, v);
       const bool stripe = (u + v) % 12 < 3;
       image.set(u, v,
-                DepthImage::valid(d) ? colorAt(ColorMap::Cividis, (d - low) / (high - low)).bytes()
+                DepthImage::valid(d) ? colorAt(map, (d - low) / (high - low)).bytes()
                                      : (stripe ? rgb(205, 207, 210) : rgb(238, 239, 240)).bytes());
     }
   }
@@ -83,13 +83,14 @@ LayerContent sensorLayer(const SceneFrame& frame, const LayerStyle& style) {
   return content;
 }
 
-LayerContent depthImageLayer(const SceneFrame& frame, const LayerStyle&) {
+LayerContent depthImageLayer(const SceneFrame& frame, const LayerStyle& style) {
   LayerContent content;
   if (!frame.record.depth || frame.record.depth->depth.empty()) return content;
   const DepthImage& depth = frame.record.depth->depth;
   const auto [low, high] = depthRange(depth);
-  content.inset = Inset{"last depth image (striped: no return)", depthPicture(depth, low, high),
-                        ColorScale{ColorMap::Cividis, "depth, m", low, high, true}};
+  const ColorMap map = mapOf(style, ColorMap::Cividis);
+  content.inset = Inset{"last depth image (striped: no return)", depthPicture(depth, map, low, high),
+                        ColorScale{map, "depth, m", low, high, true}};
   return content;
 }
 

@@ -20,12 +20,12 @@ bool hasMesh(const StepRecord& record) {
 
 /// Colour of each point by the saliency of its segment.
 std::vector<std::array<std::uint8_t, 3>> saliencyColors(const SurfaceCloud& surface, const Labels& labels,
-                                                        const Saliency& saliency, double top) {
+                                                        const Saliency& saliency, const LayerStyle& style) {
   std::vector<std::array<std::uint8_t, 3>> of_label(saliency.segments.size() + 1,
                                                     palette::kNoSegment.bytes());
   for (const Segment& segment : saliency.segments) {
     if (segment.label < of_label.size()) {
-      of_label[segment.label] = colorAt(ColorMap::Viridis, segment.saliency / top).bytes();
+      of_label[segment.label] = colorAt(mapOf(style), segment.saliency / style.saliency_max).bytes();
     }
   }
   std::vector<std::array<std::uint8_t, 3>> colors(surface.points.size(), palette::kNoSegment.bytes());
@@ -106,11 +106,11 @@ LayerContent segmentsLayer(const SceneFrame& frame, const LayerStyle& style) {
   const StepRecord& record = frame.record;
   if (!hasMesh(record) || !record.labels || !record.saliency) return content;
   const SurfaceCloud& surface = *record.surface;
-  const auto colors = saliencyColors(surface, *record.labels, *record.saliency, style.saliency_max);
+  const auto colors = saliencyColors(surface, *record.labels, *record.saliency, style);
   content.props.push_back(triangleActor(surface.points, surface.normals, surface.triangles, colors,
                                         palette::kSurface, style.surface_opacity));
   if (!record.saliency->segments.empty())
-    content.scale = ColorScale{ColorMap::Viridis, "saliency of the segment", 0.0, style.saliency_max, true};
+    content.scale = ColorScale{mapOf(style), "saliency of the segment", 0.0, style.saliency_max, true};
   content.legend.push_back({LegendEntry::Mark::Fill, palette::kNoSegment, 1.0, "surface without a segment"});
   return content;
 }

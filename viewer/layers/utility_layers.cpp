@@ -50,10 +50,12 @@ double factorOf(const ViewUtility& view, UtilityFactor factor) {
 }
 
 /// Scale over the survivors of the cascade: from 0 to a round number above the largest.
-ColorScale scaleOf(const SceneFrame& frame, UtilityFactor factor) {
+ColorScale scaleOf(const SceneFrame& frame, const LayerStyle& style) {
+  const UtilityFactor factor = style.utility_factor;
   const std::string unit =
       frame.header.octree && frame.header.octree->planner.count == GainCount::Voxels ? "voxels" : "rays";
   ColorScale scale;
+  scale.map = mapOf(style);
   double most = 0.0;
   for (const ViewUtility& view : frame.record.utilities->views)
     if (fallenOf(view) == Fallen::No) most = std::max(most, factorOf(view, factor));
@@ -195,10 +197,9 @@ void addSphere(LayerContent& content, const SceneFrame& frame, const LayerStyle&
   for (const ViewUtility& view : search.views) {
     if (!onSphere(frame, view) || view.id >= sphere.faces.size()) continue;
     const Fallen fallen = fallenOf(view);
-    const Rgb color =
-        fallen == Fallen::No
-            ? colorAt(ColorMap::Viridis, factorOf(view, style.utility_factor) / content.scale->high)
-            : colorOf(fallen);
+    const Rgb color = fallen == Fallen::No
+                          ? colorAt(mapOf(style), factorOf(view, style.utility_factor) / content.scale->high)
+                          : colorOf(fallen);
     const SphereFace face = faceOf(sphere, view.id, center, radius_m);
     const SphereFace large = face.shrunk(kFar), small = face.shrunk(kNear);
     far.add(large.corners[0], large.corners[1], large.corners[2], color);
@@ -212,7 +213,7 @@ void addSphere(LayerContent& content, const SceneFrame& frame, const LayerStyle&
   content.props.push_back(
       flatTriangleActor(far.points, far.triangles, far.colors, FaceSide::AwayFromEye, 1.0));
   if (!near.triangles.empty()) {
-    content.legend.push_back({Mark::Fill, colorAt(ColorMap::Viridis, 0.5), 1.0,
+    content.legend.push_back({Mark::Fill, colorAt(mapOf(style), 0.5), 1.0,
                               "candidate view: a face of the far side, a small triangle of the near side"});
     content.props.push_back(
         flatTriangleActor(near.points, near.triangles, near.colors, FaceSide::TowardEye, 1.0));
@@ -240,8 +241,8 @@ void addBestFrusta(LayerContent& content, const SceneFrame& frame, const LayerSt
     const ViewUtility& view = search.views[index];
     if (onSphere(frame, view) || fallenOf(view) != Fallen::No || drawn++ >= style.ranked_views) continue;
     addFrustum(lines, camera, view.T_world_camera, style.frustum_length_m / 2);
-    lines.colors.resize(lines.pieces.size(), colorAt(ColorMap::Viridis, factorOf(view, style.utility_factor) /
-                                                                            content.scale->high));
+    lines.colors.resize(lines.pieces.size(),
+                        colorAt(mapOf(style), factorOf(view, style.utility_factor) / content.scale->high));
   }
   if (!lines.pieces.empty()) content.props.push_back(lineActor(lines, palette::kInk, 1.5 * style.line_scale));
   const ViewUtility* chosen = chosenUtility(search);
@@ -265,8 +266,7 @@ void addScattered(LayerContent& content, const SceneFrame& frame, const LayerSty
     switch (fallenOf(view)) {
       case Fallen::No:
         eyes.push_back(eye);
-        colors.push_back(
-            colorAt(ColorMap::Viridis, factorOf(view, style.utility_factor) / content.scale->high));
+        colors.push_back(colorAt(mapOf(style), factorOf(view, style.utility_factor) / content.scale->high));
         break;
       case Fallen::Position:
         crosses.add(eye - x - z, eye + x + z);
@@ -293,7 +293,7 @@ void addScattered(LayerContent& content, const SceneFrame& frame, const LayerSty
   if (!eyes.empty()) {
     content.props.push_back(dotActor(eyes, colors, palette::kInk, 7.0 * line));
     content.legend.push_back(
-        {Mark::Dot, colorAt(ColorMap::Viridis, 0.5), 1.0, "candidate views, with frusta of the best"});
+        {Mark::Dot, colorAt(mapOf(style), 0.5), 1.0, "candidate views, with frusta of the best"});
   }
   if (!few_known.empty()) {
     content.props.push_back(dotActor(few_known, {}, palette::kRule, 2.5 * line));
@@ -321,7 +321,7 @@ LayerContent utilitySphereLayer(const SceneFrame& frame, const LayerStyle& style
   if (!frame.record.utilities || frame.record.utilities->views.empty() || !frame.header.octree)
     return content;
   const UtilitySearch& search = *frame.record.utilities;
-  content.scale = scaleOf(frame, style.utility_factor);
+  content.scale = scaleOf(frame, style);
   const auto on_sphere = [&](const ViewUtility& view) { return onSphere(frame, view); };
   if (std::ranges::any_of(search.views, on_sphere)) {
     addSphere(content, frame, style);

@@ -101,16 +101,16 @@ LayerContent rankedViewsLayer(const SceneFrame& frame, const LayerStyle& style) 
       content.must_see.insert(content.must_see.end(), corners.image.begin(), corners.image.end());
       addFrustum(colored, camera, view.T_world_camera, style.frustum_length_m);
       colored.colors.insert(colored.colors.end(), colored.pieces.size() - before,
-                            colorAt(ColorMap::Viridis, range.at(view.gain)));
+                            colorAt(mapOf(style), range.at(view.gain)));
     }
   }
   if (!colored.pieces.empty()) {
     content.props.push_back(lineActor(colored, palette::kInk, 2.0 * style.line_scale));
-    content.scale = ColorScale{ColorMap::Viridis,
-                               search ? "gain of the view, rays" : "utility: surface factor × distance factor",
-                               range.low, range.high, false};
+    content.scale = ColorScale{
+        mapOf(style), search ? "gain of the view, rays" : "utility: surface factor × distance factor",
+        range.low, range.high, false};
     content.legend.push_back(
-        {Mark::Line, colorAt(ColorMap::Viridis, 0.5), 1.0,
+        {Mark::Line, colorAt(mapOf(style), 0.5), 1.0,
          search ? "best positions above the threshold" : "views of the highest utility"});
   }
   if (!barred.pieces.empty()) {

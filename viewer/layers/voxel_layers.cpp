@@ -35,16 +35,16 @@ struct VoxelPlane {
   Eigen::Vector3i first = Eigen::Vector3i::Zero(), last = Eigen::Vector3i::Zero();
 };
 
-/// The plane of a style within the workspace; nothing if it misses the workspace or the grid.
-std::optional<VoxelPlane> planeOf(const SceneFrame& frame, const LayerStyle& style) {
+/// A slice across an axis within the workspace; nothing if it misses the workspace or the grid.
+std::optional<VoxelPlane> planeOf(const SceneFrame& frame, int axis, const SlicePlane& slice) {
   const GridGeometry& geometry = frame.states.geometry();
   if (geometry.count() == 0) return std::nullopt;
   const Box& workspace = frame.header.workspace;
   Box bounds = geometry.bounds();
   if (!workspace.isEmpty()) bounds = bounds.intersection(workspace);
   if (bounds.isEmpty()) return std::nullopt;
-  VoxelPlane plane{style.slice_axis, (style.slice_axis + 1) % 3, (style.slice_axis + 2) % 3};
-  const double at_m = style.slice_at_m.value_or(bounds.center()[plane.axis]);
+  VoxelPlane plane{axis, (axis + 1) % 3, (axis + 2) % 3};
+  const double at_m = slice.at_m.value_or(bounds.center()[plane.axis]);
   if (at_m < bounds.min()[plane.axis] || at_m > bounds.max()[plane.axis]) return std::nullopt;
   bounds.min()[plane.axis] = bounds.max()[plane.axis] = at_m;
   const Eigen::Vector3i largest(geometry.size[0] - 1, geometry.size[1] - 1, geometry.size[2] - 1);
@@ -71,6 +71,34 @@ vtkSmartPointer<vtkImageData> sliceImage(const StateGrid& grid, const VoxelPlane
     }
   }
   return image;
+}
+
+/// The plane in the colours of its voxels.
+vtkSmartPointer<vtkActor> sliceActor(const StateGrid& grid, const VoxelPlane& voxels) {
+  const GridGeometry& geometry = grid.geometry();
+  const Eigen::Vector3d half = Eigen::Vector3d::Constant(geometry.voxel_size_m / 2);
+  const Eigen::Vector3d low = geometry.center(voxels.first) - half,
+                        high = geometry.center(voxels.last) + half;
+  Eigen::Vector3d origin = low;
+  origin[voxels.axis] = geometry.center(voxels.first)[voxels.axis];
+  Eigen::Vector3d end_u = origin, end_v = origin;
+  end_u[voxels.u] = high[voxels.u];
+  end_v[voxels.v] = high[voxels.v];
+  vtkNew<vtkPlaneSource> plane;
+  plane->SetOrigin(origin.data());
+  plane->SetPoint1(end_u.data());
+  plane->SetPoint2(end_v.data());
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(plane->GetOutputPort());
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(sliceImage(grid, voxels));
+  texture->SetColorModeToDirectScalars();
+  texture->InterpolateOff();
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  actor->SetTexture(texture);
+  actor->GetProperty()->LightingOff();
+  return actor;
 }
 
 }  // namespace
@@ -108,32 +136,12 @@ LayerContent freeLayer(const SceneFrame& frame, const LayerStyle& style) {
 
 LayerContent slicesLayer(const SceneFrame& frame, const LayerStyle& style) {
   LayerContent content;
-  const std::optional<VoxelPlane> voxels = planeOf(frame, style);
-  if (!voxels) return content;
-  const GridGeometry& geometry = frame.states.geometry();
-  const Eigen::Vector3d half = Eigen::Vector3d::Constant(geometry.voxel_size_m / 2);
-  const Eigen::Vector3d low = geometry.center(voxels->first) - half,
-                        high = geometry.center(voxels->last) + half;
-  Eigen::Vector3d origin = low;
-  origin[voxels->axis] = geometry.center(voxels->first)[voxels->axis];
-  Eigen::Vector3d end_u = origin, end_v = origin;
-  end_u[voxels->u] = high[voxels->u];
-  end_v[voxels->v] = high[voxels->v];
-  vtkNew<vtkPlaneSource> plane;
-  plane->SetOrigin(origin.data());
-  plane->SetPoint1(end_u.data());
-  plane->SetPoint2(end_v.data());
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(plane->GetOutputPort());
-  vtkNew<vtkTexture> texture;
-  texture->SetInputData(sliceImage(frame.states, *voxels));
-  texture->SetColorModeToDirectScalars();
-  texture->InterpolateOff();
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  actor->SetTexture(texture);
-  actor->GetProperty()->LightingOff();
-  content.props.push_back(actor);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!style.slices[axis].shown) continue;
+    if (const auto voxels = planeOf(frame, axis, style.slices[axis]))
+      content.props.push_back(sliceActor(frame.states, *voxels));
+  }
+  if (content.props.empty()) return content;
   content.legend = {{LegendEntry::Mark::Fill, palette::kUnknown, 1.0, "unknown (slice)"},
                     {LegendEntry::Mark::Fill, palette::kFree, 1.0, "free (slice)"},
                     {LegendEntry::Mark::Fill, palette::kOccupied, 1.0, "occupied (slice)"}};

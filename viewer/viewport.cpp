@@ -1,0 +1,213 @@
+#include <GL/glew.h>
+// GLEW comes before everything that includes OpenGL headers.
+#include <vtkLightCollection.h>
+#include <vtkOpenGLFramebufferObject.h>
+#include <vtkOpenGLState.h>
+#include <vtkRenderer.h>
+#include <vtkRendererCollection.h>
+#include <vtkSmartPointer.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/geometry/check.h"
+#include "viewer/gl_window.h"
+#include "viewer/offscreen_renderer.h"
+#include "viewer/viewport.h"
+#include "viewer/vtk_messages.h"
+
+namespace vantage {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kSmallest = 16;
+constexpr int kSamples = 4;                                    // what the software driver offers at most
+constexpr double kTurnPerHeight_rad = 3.14159265358979323846;  // a drag across the picture turns by half
+constexpr double kZoomPerHeight = 8.0, kZoomPerNotch = 1.15;
+
+}  // namespace
+
+struct Viewport::State {
+  GlContext& context;
+  Scene& scene;
+  vtkSmartPointer<GlWindow> window;
+  PictureSize size{640, 400};
+  unsigned texture = 0;
+  std::uint64_t frames = 0;
+  bool dirty = true, rough = false, moving = false;
+  Clock::time_point moved_at = {};
+  std::optional<Drag> drag = {};
+  Eigen::Vector2d cursor = Eigen::Vector2d::Zero();
+
+  bool inMotion() const {
+    return moving && std::chrono::duration<double>(Clock::now() - moved_at).count() < kSettle_s;
+  }
+  void setEye(const Eye& eye) {
+    scene.setEye(eye);
+    moving = true;
+    moved_at = Clock::now();
+    dirty = true;
+  }
+  void draw(std::span<vtkRenderer* const> wanted);
+  void keepPicture();
+};
+
+/// Draws these renderers alone. The others stay with the window, so that what they have on the
+/// graphics card stays too.
+void Viewport::State::draw(std::span<vtkRenderer* const> wanted) {
+  vtkRendererCollection* all = window->GetRenderers();
+  for (vtkRenderer* renderer : wanted)
+    if (!all->IsItemPresent(renderer)) window->AddRenderer(renderer);
+  vtkCollectionSimpleIterator at;
+  all->InitTraversal(at);
+  while (vtkRenderer* renderer = all->GetNextRenderer(at))
+    renderer->SetDraw(std::ranges::find(wanted, renderer) != wanted.end());
+  for (vtkRenderer* renderer : wanted) {
+    renderer->ResetCameraClippingRange();
+    // Shaders are shared by renderers and keep the lights of the last one unless these are newer.
+    renderer->GetLights()->Modified();
+  }
+  window->Render();
+}
+
+/// Copies the window's picture into the texture.
+void Viewport::State::keepPicture() {
+  const int* drawn = window->GetSize();
+  vtkOpenGLState* gl = window->GetState();
+  gl->PushFramebufferBindings();
+  vtkOpenGLFramebufferObject* display = window->GetDisplayFramebuffer();
+  display->Bind(GL_READ_FRAMEBUFFER);
+  display->ActivateReadBuffer(0);
+  GLint bound = 0;
+  glGetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
+  if (!texture) glGenTextures(1, &texture);
+  glBindTexture(GL_TEXTURE_2D, texture);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glCopyTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, 0, 0, drawn[0], drawn[1], 0);
+  glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(bound));
+  gl->PopFramebufferBindings();
+}
+
+Viewport::Viewport(GlContext& context, Scene& scene)
+    : state_(std::make_unique<State>(State{context, scene, makeMemoryWindow(context, kSamples)})) {
+  state_->window->AddRenderer(scene.view());
+}
+
+Viewport::~Viewport() {
+  try {
+    state_->context.makeCurrent();
+    if (state_->texture) glDeleteTextures(1, &state_->texture);
+    state_->window->Finalize();
+    while (vtkRenderer* renderer = state_->window->GetRenderers()->GetFirstRenderer())
+      state_->window->RemoveRenderer(renderer);
+  } catch (const std::exception&) {
+    // The context is gone, and its objects with it.
+  }
+}
+
+void Viewport::resize(int width, int height) {
+  const PictureSize wanted{std::clamp(width, kSmallest, kLargestPicture),
+                           std::clamp(height, kSmallest, kLargestPicture)};
+  if (wanted.width == state_->size.width && wanted.height == state_->size.height) return;
+  state_->size = wanted;
+  state_->dirty = true;
+}
+
+PictureSize Viewport::size() const {
+  return state_->size;
+}
+
+void Viewport::requestRender() {
+  state_->dirty = true;
+}
+
+bool Viewport::render() {
+  if (nextRender_s() != 0.0) return false;
+  state_->context.makeCurrent();
+  const bool rough = state_->inMotion();
+  state_->window->SetSize(state_->size.width, state_->size.height);
+  vtkRenderer* const view = state_->scene.view();
+  state_->draw({&view, 1});
+  state_->keepPicture();
+  state_->rough = rough;
+  state_->dirty = false;
+  ++state_->frames;
+  return true;
+}
+
+std::optional<double> Viewport::nextRender_s() const {
+  if (state_->dirty) return 0.0;
+  if (!state_->rough) return std::nullopt;
+  const double since = std::chrono::duration<double>(Clock::now() - state_->moved_at).count();
+  return state_->moving ? std::max(0.0, kSettle_s - since) : 0.0;
+}
+
+unsigned Viewport::texture() const {
+  return state_->texture;
+}
+
+std::uint64_t Viewport::framesRendered() const {
+  return state_->frames;
+}
+
+void Viewport::press(Drag drag, const Eigen::Vector2d& at_px) {
+  state_->drag = drag;
+  state_->cursor = at_px;
+}
+
+void Viewport::move(const Eigen::Vector2d& at_px) {
+  const Eigen::Vector2d moved = at_px - state_->cursor;
+  state_->cursor = at_px;
+  if (!state_->drag || moved.isZero()) return;
+  const Eye eye = state_->scene.eye();
+  const Eigen::Vector2d middle(state_->size.width / 2.0, state_->size.height / 2.0);
+  const double turn_rad = kTurnPerHeight_rad / state_->size.height;
+  switch (*state_->drag) {
+    case Drag::Orbit:
+      return state_->setEye(orbited(eye, -moved.x() * turn_rad, moved.y() * turn_rad));
+    case Drag::Pan:
+      return state_->setEye(panned(eye, moved, state_->size));
+    case Drag::Zoom:
+      return state_->setEye(
+          zoomed(eye, std::pow(kZoomPerHeight, moved.y() / state_->size.height), middle, state_->size));
+  }
+}
+
+void Viewport::release() {
+  state_->drag.reset();
+}
+
+bool Viewport::dragging() const {
+  return state_->drag.has_value();
+}
+
+void Viewport::wheel(double notches, const Eigen::Vector2d& at_px) {
+  if (notches == 0.0) return;
+  state_->setEye(zoomed(state_->scene.eye(), std::pow(kZoomPerNotch, notches), at_px, state_->size));
+}
+
+void Viewport::setMoving(bool moving) {
+  state_->moving = moving;
+  if (moving) state_->moved_at = Clock::now();
+}
+
+RgbImage Viewport::screenshot() {
+  vtkRenderer* const view = state_->scene.view();
+  return picture({&view, 1}, state_->size.width, state_->size.height);
+}
+
+RgbImage Viewport::picture(std::span<vtkRenderer* const> renderers, int width, int height) {
+  requireInRange("picture width", width, kSmallest, kLargestPicture);
+  requireInRange("picture height", height, kSmallest, kLargestPicture);
+  state_->context.makeCurrent();
+  GlWindow& window = *state_->window;
+  window.SetSize(width, height);
+  state_->draw(renderers);
+  return readPicture(window);
+}
+
+}  // namespace vantage
