@@ -74,6 +74,7 @@ std::vector<ParameterGroup> contourParameters(bool segments) {
           slider("segmentation.smoothness", "", "smoothness", "", 1.0, 0, 1, 0.01),
           slider("segmentation.k_convexity", "", "k-convexity", "", 1.0, 0, 3, 1),
           plain("segmentation.sanity_check", "sanity check"),
+          slider("saliency.max_distance_m", "", "distances kept up to", "cm", kCm, 0.01, 0.5, 0.01),
           slider("segmentation.min_segment_supervoxels", "", "smallest segment, supervoxels", "", 1.0, 0, 30,
                  1)}});
   groups.push_back({"Views",

@@ -29,6 +29,7 @@ using Action = std::function<int()>;
 
 /// Each adds one command; all live in a file of their own. `global` and `action` outlive the parser.
 void addExplore(CLI::App& app, const GlobalOptions& global, Action& action);
+void addView(CLI::App& app, const GlobalOptions& global, Action& action);
 void addSnapshot(CLI::App& app, const GlobalOptions& global, Action& action);
 void addFuse(CLI::App& app, const GlobalOptions& global, Action& action);
 void addContours(CLI::App& app, const GlobalOptions& global, Action& action);

@@ -97,6 +97,7 @@ std::optional<std::string> unexpected(const CLI::App& app, const CLI::App* comma
 
 void addCommands(CLI::App& app, const GlobalOptions& global, Action& action) {
   addExplore(app, global, action);
+  addView(app, global, action);
   addSnapshot(app, global, action);
   addFuse(app, global, action);
   addContours(app, global, action);
@@ -185,6 +186,8 @@ int main(int argc, char** argv) {
   try {
     return parseAndRun(argc, argv);
   } catch (const GlUnavailable& e) {
+    return fail(kNoDisplay, e.what());
+  } catch (const WindowUnavailable& e) {
     return fail(kNoDisplay, e.what());
   } catch (const InputError& e) {
     return fail(kBadInput, e.what());

@@ -15,6 +15,7 @@
 #include "viewer/app/console.h"
 #include "viewer/app/inputs.h"
 #include "viewer/app/json_output.h"
+#include "viewer/app/picture_size.h"
 
 namespace vantage::app {
 namespace {
@@ -23,19 +24,6 @@ struct SnapshotOptions {
   std::string run, step = "all", size = "1280x800", output;
   std::vector<std::string> recipes, style;
 };
-
-/// "WxH" in pixels.
-std::pair<int, int> parseSize(const std::string& text) {
-  constexpr int kLow = SnapshotRequest::kSmallestSide, kHigh = kLargestPicture;
-  int width = 0, height = 0, used = 0;
-  if (std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &used) != 2 ||
-      used != static_cast<int>(text.size()) || std::min(width, height) < kLow ||
-      std::max(width, height) > kHigh)
-    throw InputError(
-        "--size " + text,
-        fmt::format("not a picture size; give WIDTHxHEIGHT in pixels, each {} .. {}", kLow, kHigh));
-  return {width, height};
-}
 
 /// Number of a step, SnapshotRequest::kEnd, or nothing for all.
 std::optional<int> parseStep(const std::string& text) {
@@ -68,7 +56,7 @@ int snapshot(const GlobalOptions& global, const SnapshotOptions& options) {
   if (const auto step = parseStep(options.step)) request.step = *step;
   request.recipes = options.recipes;
   request.style = options.style;
-  std::tie(request.width, request.height) = parseSize(options.size);
+  std::tie(request.width, request.height) = parseSize("--size", options.size);
   request.output = options.output;
   Console console(global);
   const auto files = takeSnapshots(options.run, request, console.control());

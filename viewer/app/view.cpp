@@ -1,0 +1,116 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "core/gpu/egl_context.h"
+#include "io/error.h"
+#include "snapshots/recipe.h"
+#include "snapshots/snapshot.h"
+#include "viewer/app/command.h"
+#include "viewer/app/console.h"
+#include "viewer/app/picture_size.h"
+#include "viewer/captions.h"
+#include "viewer/inspector.h"
+#include "viewer/offscreen_ui.h"
+#include "viewer/window.h"
+
+namespace vantage::app {
+namespace {
+
+struct ViewOptions {
+  std::vector<std::string> files;
+  std::string picture, size = "1280x800";
+  double seconds = 0.0;
+};
+
+/// A picture of the view with caption and legend, as snapshots have it.
+RgbImage pictureOf(const SceneFrame& frame, const ViewSettings& view, const Eye& eye, GlContext& context,
+                   int width, int height) {
+  Scene scene;
+  scene.setFrame(frame);
+  OffscreenRenderer renderer(context);
+  return drawView(scene, renderer, {"As seen in the inspector", stepLine(frame), viewFigures(frame, view.style)},
+                  view, eye, width, height);
+}
+
+std::vector<std::filesystem::path> existing(const std::vector<std::string>& files) {
+  std::vector<std::filesystem::path> paths;
+  for (const std::string& file : files) {
+    std::error_code error;
+    if (!std::filesystem::exists(file, error))
+      throw InputError(file, "there is no such file; give a run, a map, a scene or a cloud");
+    paths.emplace_back(file);
+  }
+  return paths;
+}
+
+/// The window drawn into a file, without a display.
+int drawWindow(const GlobalOptions& global, const ViewOptions& options,
+               const std::vector<std::filesystem::path>& files) {
+  const auto [width, height] = parseSize("--size", options.size);
+  EglContext context;
+  InspectorPorts ports;
+  ports.picture = pictureOf;
+  Inspector inspector(context, std::move(ports), Preferences{});
+  OffscreenUi ui(context, inspector, width, height);
+  inspector.open(files);
+  ui.settle();
+  if (const auto error = inspector.error()) throw std::runtime_error(*error);
+  writePng(ui.image(), options.picture);
+  say(global, options.picture);
+  return 0;
+}
+
+int openWindow(const ViewOptions& options, const std::vector<std::filesystem::path>& files) {
+  const std::filesystem::path kept = preferencesPath();
+  Preferences preferences = loadPreferences(kept);
+  WindowOptions window_options;
+  window_options.width = preferences.window_width;
+  window_options.height = preferences.window_height;
+  window_options.quit_after_s = options.seconds;
+  Window window(window_options);
+  InspectorPorts ports;
+  ports.picture = pictureOf;
+  ports.copy = [&window](const std::string& text) { window.copy(text); };
+  ports.wake = [&window] { window.wake(); };
+  Inspector inspector(window.context(), std::move(ports), std::move(preferences));
+  inspector.open(files);
+  window.show(inspector);
+  Preferences last = inspector.preferences();
+  last.window_width = window.width();
+  last.window_height = window.height();
+  savePreferences(kept, last);
+  return 0;
+}
+
+int view(const GlobalOptions& global, const ViewOptions& options) {
+  const auto files = existing(options.files);
+  if (!options.picture.empty()) return drawWindow(global, options, files);
+  return openWindow(options, files);
+}
+
+}  // namespace
+
+void addView(CLI::App& app, const GlobalOptions& global, Action& action) {
+  auto options = std::make_shared<ViewOptions>();
+  CLI::App* command = app.add_subcommand(
+      "view", "The inspector: a window that shows a run step by step and tries other parameters on it");
+  command->add_option("files", options->files, "Run, map, scene, cloud, recipe or configuration")
+      ->type_name("FILE");
+  command
+      ->add_option("--picture", options->picture,
+                   "Draw the window into a PNG file instead, without a display")
+      ->type_name("FILE.png");
+  command->add_option("--size", options->size, "Of that picture, pixels; default: 1280x800")
+      ->type_name("WxH");
+  command
+      ->add_option("--seconds", options->seconds, "Close the window by itself after this time; 0 = never")
+      ->check(CLI::Range(0.0, 1e6))
+      ->type_name("S");
+  command->footer("Example: vantage view tabletop.vantage   (F1 in the window lists all keys)");
+  command->callback([&global, &action, options] { action = [&global, options] { return view(global, *options); }; });
+}
+
+}  // namespace vantage::app

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "io/config_fields.h"
+#include "io/config_file.h"
+
+namespace vantage {
+
+/// Settings of a run and what was changed of them, with undo. Values that are refused change nothing.
+class SettingEdits {
+ public:
+  /// Another run: its settings, nothing changed, nothing to undo.
+  void setRecorded(Settings settings);
+
+  const Settings& recorded() const { return recorded_; }
+  const Settings& wanted() const { return wanted_; }
+  config::Value value(const std::string& key) const;
+  config::Value recordedValue(const std::string& key) const;
+  bool changed(const std::string& key) const { return value(key) != recordedValue(key); }
+  bool anyChanged() const;
+
+  /// Takes over a value; true if it changed something. Changes of one key that follow each other are one for
+  /// undo() until finishEdit(). A refused value sets error().
+  bool set(const std::string& key, const config::Value& value);
+  /// The same from what a person typed: a number in the unit that is shown (Parameter), else a TOML value.
+  bool setText(const std::string& key, const std::string& text);
+  void finishEdit() { open_ = false; }
+  bool reset(const std::string& key);
+  /// All keys that are changed; one undo for each.
+  bool resetAll();
+  bool canUndo() const { return done_ > 0; }
+  bool canRedo() const { return done_ < edits_.size(); }
+  bool undo();
+  bool redo();
+  /// Why the last value of a key was refused; empty if it was not.
+  std::string error(const std::string& key) const;
+
+  /// The changed keys as a configuration file that applyToml() reads; a comment alone if there are none.
+  std::string toml() const;
+  /// Takes over what a configuration file sets, as one change each. \throws InputError, nothing changes then
+  void load(const std::string& toml, const std::string& origin);
+
+ private:
+  struct Edit {
+    std::string key;
+    config::Value before, after;
+  };
+  bool apply(const std::string& key, const config::Value& value);
+  void remember(Edit edit);
+
+  Settings recorded_, wanted_;
+  std::vector<Edit> edits_;
+  std::size_t done_ = 0;
+  bool open_ = false;  ///< the last edit goes on
+  std::map<std::string, std::string> errors_;
+};
+
+/// A value as its field shows it: in the parameter's unit, without the unit.
+std::string shownText(const std::string& key, const config::Value& value);
+
+}  // namespace vantage

@@ -1,0 +1,255 @@
+#include "viewer/what_if.h"
+
+#include <chrono>
+#include <utility>
+
+namespace vantage {
+namespace {
+
+// Names of background work: the newest of a name replaces the one before.
+const std::string kScore = "score views", kRerun = "run stages again", kCheck = "check the view";
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Scores of the step's own search; none for planners on the octree.
+std::optional<ScoredGroups> groupsOf(const PlannedStep& step, PlannerKind planner) {
+  if (usesOctree(planner) || !step.data.record->search) return std::nullopt;
+  return ScoredGroups(*step.data.record->search, contourConfigOf(step.settings, planner));
+}
+
+/// The step has what planning again starts from.
+bool canPlanAgain(const StepData& data, PlannerKind planner) {
+  if (data.record->closing) return false;
+  if (usesOctree(planner)) return data.pyramid && data.tree && data.record->utilities != nullptr;
+  return data.volume && data.record->search && data.record->positions && data.record->point_labels;
+}
+
+}  // namespace
+
+template <class Work, class Finish>
+void WhatIf::start(const std::string& name, Work work, Finish finish) {
+  work_.start(name, [this, step = step_, work = std::move(work), finish](const RunControl& control) {
+    auto result = std::make_shared<decltype(work(control))>();
+    std::string failure;
+    try {
+      *result = work(control);
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const std::exception& e) {
+      failure = e.what();
+    }
+    return BackgroundWork::Finish([this, step, result, failure, finish] {
+      if (step != step_) return;
+      if (failure.empty())
+        finish(std::move(*result));
+      else
+        fail(failure);
+    });
+  });
+}
+
+void WhatIf::fail(const std::string& message) {
+  failure_ = message;
+  state_ = WhatIfState::Failed;
+  ++revision_;
+}
+
+void WhatIf::clear() {
+  cancel();
+  ++step_;
+  context_.reset();
+  recorded_step_.reset();
+  base_.reset();
+  recorded_groups_.reset();
+  groups_.reset();
+  recorded_ = shown_ = {};
+  edits_.setRecorded({});
+  has_settings_ = false;
+  state_ = WhatIfState::Unavailable;
+  failure_.clear();
+  pending_groups_ = 0;
+  ++revision_;
+}
+
+void WhatIf::setStep(const StepData& recorded, std::shared_ptr<const WhatIfContext> context) {
+  cancel();
+  ++step_;
+  recorded_ = shown_ = recorded;
+  context_.reset();
+  failure_.clear();
+  pending_groups_ = 0;
+  state_ = WhatIfState::Unavailable;
+  ++revision_;
+  if (!context || !canPlanAgain(recorded, context->planner)) return;
+  if (!has_settings_) edits_.setRecorded(context->settings);
+  has_settings_ = true;
+  context_ = std::move(context);
+  recorded_step_ = base_ = std::make_shared<const PlannedStep>(PlannedStep{recorded_, context_->settings});
+  recorded_groups_ = groups_ = groupsOf(*base_, context_->planner);
+  state_ = WhatIfState::Recorded;
+  update();
+  scorePending();
+}
+
+std::size_t WhatIf::groups() const {
+  return recorded_.empty() || !recorded_.record->search ? 0 : shown_.record->search->segments.size();
+}
+
+void WhatIf::show(StepData data) {
+  shown_ = std::move(data);
+  ++revision_;
+}
+
+void WhatIf::showRecorded() {
+  work_.cancel(kRerun);
+  work_.cancel(kCheck);
+  base_ = recorded_step_;
+  groups_ = recorded_groups_;
+  state_ = WhatIfState::Recorded;
+  failure_.clear();
+  show(groups_ ? withAllScores(recorded_, *base_, *groups_, *context_, edits_.recorded()) : recorded_);
+}
+
+void WhatIf::update() {
+  if (!ready()) return;
+  failure_.clear();
+  if (!edits_.anyChanged()) {
+    showRecorded();
+    return;
+  }
+  if (stagesToRedo(*recorded_step_, edits_.wanted(), context_->planner).empty() && base_ != recorded_step_) {
+    base_ = recorded_step_;
+    groups_ = recorded_groups_;
+  }
+  if (stagesToRedo(*base_, edits_.wanted(), context_->planner).empty()) {
+    work_.cancel(kRerun);
+    rerank();
+  } else {
+    rerun();
+  }
+}
+
+void WhatIf::rerank() {
+  const auto start = Clock::now();
+  try {
+    Reranked ranked =
+        vantage::rerank(*base_, groups_ ? &*groups_ : nullptr, *context_, edits_.wanted(), ReachCheck::Quick);
+    show(std::move(ranked.data));
+    rerank_s_ = secondsSince(start);
+    state_ = ranked.pending ? WhatIfState::Scoring : WhatIfState::Checking;
+    if (ranked.pending)
+      scorePending();
+    else
+      check();
+  } catch (const std::exception& e) {
+    fail(e.what());
+  }
+}
+
+void WhatIf::check() {
+  start(
+      kCheck,
+      [base = base_, groups = groups_, context = context_,
+       wanted = edits_.wanted()](const RunControl& control) {
+        control.report("planning the path to the view", 0, 0);
+        Reranked ranked =
+            vantage::rerank(*base, groups ? &*groups : nullptr, *context, wanted, ReachCheck::Full, control);
+        if (groups && !ranked.pending)
+          ranked.data = withAllScores(ranked.data, *base, *groups, *context, wanted);
+        return ranked;
+      },
+      [this](Reranked ranked) {
+        const bool pending = ranked.pending.has_value();
+        show(std::move(ranked.data));
+        state_ = pending ? WhatIfState::Scoring : WhatIfState::Settled;
+        scorePending();
+      });
+}
+
+void WhatIf::rerun() {
+  state_ = WhatIfState::Rerunning;
+  work_.cancel(kCheck);
+  work_.cancel(kScore);
+  start(
+      kRerun,
+      [base = recorded_step_, context = context_, wanted = edits_.wanted()](const RunControl& control) {
+        return std::make_shared<const PlannedStep>(replan(*base, *context, wanted, control));
+      },
+      [this](std::shared_ptr<const PlannedStep> planned) {
+        base_ = std::move(planned);
+        groups_ = groupsOf(*base_, context_->planner);
+        update();
+      });
+}
+
+void WhatIf::scorePending() {
+  if (!groups_ || !base_->data.record->search) return;
+  const ViewSearch& search = *shown_.record->search;
+  const std::vector<std::uint32_t> pending = groups_->pendingIn(search);
+  pending_groups_ = pending.size();
+  if (pending.empty()) {
+    work_.cancel(kScore);
+    return;
+  }
+  start(
+      kScore,
+      [base = base_, groups = *groups_, context = context_, group = search.segments[pending.front()]](
+          const RunControl& control) { return scoreGroupOf(*base, groups, *context, group, control); },
+      [this, base = base_](std::shared_ptr<const ScoredGroup> group) {
+        if (base != base_) return;
+        groups_->add(group);
+        if (base_ == recorded_step_) recorded_groups_->add(std::move(group));
+        if (state_ == WhatIfState::Scoring) {
+          rerank();
+          return;
+        }
+        scorePending();
+        if (pending_groups_ > 0) return;
+        show(withAllScores(shown_, *base_, *groups_, *context_, edits_.wanted()));
+      });
+}
+
+void WhatIf::cancel() {
+  for (const std::string& name : {kScore, kRerun, kCheck}) work_.cancel(name);
+  if (state_ == WhatIfState::Rerunning || state_ == WhatIfState::Checking || state_ == WhatIfState::Scoring)
+    fail("cancelled: what is shown belongs to earlier parameters");
+}
+
+bool WhatIf::set(const std::string& key, const config::Value& value) {
+  const bool taken = ready() && edits_.set(key, value);
+  if (taken) update();
+  return taken;
+}
+
+bool WhatIf::setText(const std::string& key, const std::string& text) {
+  const bool taken = ready() && edits_.setText(key, text);
+  if (taken) update();
+  return taken;
+}
+
+void WhatIf::reset(const std::string& key) {
+  if (edits_.reset(key)) update();
+}
+
+void WhatIf::resetAll() {
+  if (edits_.resetAll()) update();
+}
+
+void WhatIf::undo() {
+  if (edits_.undo()) update();
+}
+
+void WhatIf::redo() {
+  if (edits_.redo()) update();
+}
+
+void WhatIf::load(const std::string& toml, const std::string& origin) {
+  edits_.load(toml, origin);
+  update();
+}
+
+}  // namespace vantage
