@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/exploration/step_record.h"
+#include "core/exploration/stage_set.h"
 #include "core/run_control.h"
 
 namespace vantage {
@@ -57,14 +57,22 @@ struct Exclusions {
 /// Algorithm 1, Monica & Aleotti 2017, one named call per stage: fills the planning products and timings of
 /// `record` and calls `publish` after each of the stages Contours to Evaluation. The standard baseline skips
 /// segmentation and saliency.
-/// \throws Cancelled
+/// \param stages those to do, with their dependents; the products of the others are taken from the record,
+/// and segments that it keeps are scored anew for the configured B_th and weighting. The products of the
+/// stages to do are dropped first: when they are cancelled the record holds no product of an older
+/// configuration after one of a newer.
+/// \throws Cancelled before, between and within stages; std::invalid_argument if the record lacks a product
+/// that is to be kept
 void planView(StepRecord& record, const PlanViewInput& input, const ReachPose& reach,
-              const std::function<void(Stage)>& publish, const RunControl& control);
+              const std::function<void(Stage)>& publish, const RunControl& control,
+              const StageSet& stages = StageSet::from(Stage::Contours));
 
 /// Steps 3-5 of Algorithm 1, Vasquez-Gomez et al. 2013: candidates, cascade, choice. Calls `publish` after
-/// the stages Generation and Evaluation. The uniform baseline is the same with no coarse levels. \throws
-/// Cancelled
+/// the stages Generation and Evaluation. The uniform baseline is the same with no coarse levels.
+/// \param stages without Generation: the candidates are those of the recorded views
+/// \throws Cancelled; std::invalid_argument if they are wanted and the record has none
 void planUtility(StepRecord& record, const PlanUtilityInput& input, const ReachPose& reach,
-                 const std::function<void(Stage)>& publish, const RunControl& control);
+                 const std::function<void(Stage)>& publish, const RunControl& control,
+                 const StageSet& stages = StageSet::from(Stage::Generation));
 
 }  // namespace vantage

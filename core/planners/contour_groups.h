@@ -19,6 +19,14 @@ Sphere boundingSphere(const ViewSearchInput& input, const SegmentSearch& search)
 VisibilityQuery regionQuery(const ViewSearchInput& input, const ContourPlannerConfig& config,
                             const SegmentSearch& search);
 
+/// Marks the poses near one that was executed (D-B15). \pre the rolls of a position follow each other
+void markExecuted(const ViewSearchInput& input, const ContourPlannerConfig& config,
+                  std::vector<PoseScore>& scores);
+
+/// Orders scores by decreasing gain, ties to the lowest id. \pre they ascend by id, and their gains are their
+/// unknown rays times one factor
+void rankByGain(std::vector<PoseScore>& scores);
+
 /// Positions of a group's poses, ascending; indices into input.positions.
 std::vector<std::uint32_t> positionsOf(const ViewSearchInput& input, const SegmentSearch& search);
 

@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -27,6 +28,15 @@ void ContourPlannerConfig::validate() const {
   segmentation.validate();
   saliency.validate();
   gain.validate();
+}
+
+std::optional<int> marginBins(double sphere_margin_m) {
+  constexpr double kRounding = 1e-6;  // bins
+  const double bins = sphere_margin_m / kHistogramWidth_m;
+  const double whole = std::round(bins);
+  if (!(whole >= 0.0 && whole <= std::round(kLargestKeptMargin_m / kHistogramWidth_m))) return std::nullopt;
+  if (std::abs(bins - whole) > kRounding) return std::nullopt;
+  return static_cast<int>(whole);
 }
 
 std::vector<std::uint32_t> assignContourPoints(const std::vector<ContourPoint>& points,

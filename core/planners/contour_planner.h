@@ -73,8 +73,13 @@ struct SegmentSearch {
   /// one. None for the baseline.
   std::vector<std::vector<std::uint32_t>> histograms;
 };
-inline constexpr int kHistogramBins = 52;  ///< margins up to 0.50 m, the last bin holds the rest
+inline constexpr int kHistogramBins = 52;
 inline constexpr double kHistogramWidth_m = 0.01;
+inline constexpr double kLargestKeptMargin_m = 0.50;  ///< the histograms answer for margins up to here
+
+/// The number of histogram bins that a sphere margin spans, empty unless it is a whole number of them (up to
+/// rounding) and at most kLargestKeptMargin_m.
+std::optional<int> marginBins(double sphere_margin_m);
 
 /// The next best view and where it came from.
 struct ContourChosenView : ChosenView {
@@ -124,5 +129,10 @@ ViewSearch searchView(const ViewSearchInput& input, const ContourPlannerConfig& 
 /// `segment` and `contour_points` of `search`, fills the rest of it and adds the work to `counts`.
 void scoreSegment(const ViewSearchInput& input, const ContourPlannerConfig& config, SegmentSearch& search,
                   SearchCounts& counts, const RunControl& control);
+
+/// Distinct first-hit unknown voxels inside the group's region that a pose sees at full resolution: the
+/// diagnostic ChosenView::gain_voxels. One cast, a few milliseconds.
+std::uint64_t countVoxels(const ViewSearchInput& input, const ContourPlannerConfig& config,
+                          const SegmentSearch& search, const Pose& T_world_camera);
 
 }  // namespace vantage

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/geometry/check.h"
+#include "core/planners/utility_selection.h"
 
 namespace vantage {
 namespace {
@@ -25,12 +26,6 @@ bool overlapsKnownSurface(const ViewUtility& view, const HierarchicalPlannerConf
   if (config.min_overlap <= 0.0) return view.occupied >= config.min_occupied;
   const double seen = view.occupied + view.unknown;
   return seen > 0.0 && view.occupied >= config.min_overlap * seen;
-}
-
-bool takenBefore(const Pose& pose, const UtilityInput& input, const HierarchicalPlannerConfig& config) {
-  return config.exclude_executed && std::ranges::any_of(input.executed, [&](const Pose& executed) {
-           return isNear(executed, pose, config.executed_distance_m, config.executed_angle_rad);
-         });
 }
 
 }  // namespace
@@ -103,6 +98,25 @@ double configurationDistance(const Pose& a, const Pose& b, double rotation_weigh
                     rotation_weight_m_per_rad * angleBetween(a, b));
 }
 
+bool takenBefore(const Pose& pose, std::span<const Pose> executed, const HierarchicalPlannerConfig& config) {
+  return config.exclude_executed && std::ranges::any_of(executed, [&](const Pose& e) {
+           return isNear(e, pose, config.executed_distance_m, config.executed_angle_rad);
+         });
+}
+
+void judgeView(ViewUtility& view, const HierarchicalPlannerConfig& config, const Pose& current,
+               std::uint64_t box_unknown) {
+  view.surface = view.distance = view.utility = 0.0;
+  view.rejection = ViewRejection::Registration;  // Eq. 2
+  if (!overlapsKnownSurface(view, config)) return;
+
+  view.rejection = ViewRejection::None;
+  view.surface = box_unknown == 0 ? 0.0 : view.unknown / static_cast<double>(box_unknown);  // Eq. 3
+  view.distance = 1.0 / (1.0 + configurationDistance(view.T_world_camera, current,
+                                                     config.rotation_weight_m_per_rad));  // Eq. 5
+  view.utility = view.surface * view.distance;  // Eq. 1, without a vision angle (D-A19)
+}
+
 ViewUtility evaluateView(const UtilityInput& input, const HierarchicalPlannerConfig& config,
                          const ViewCandidate& candidate, std::uint64_t box_unknown) {
   ViewUtility view;
@@ -112,7 +126,7 @@ ViewUtility evaluateView(const UtilityInput& input, const HierarchicalPlannerCon
   const Pose& pose = candidate.T_world_camera;
 
   view.rejection = ViewRejection::Executed;
-  if (takenBefore(pose, input, config)) return view;
+  if (takenBefore(pose, input.executed, config)) return view;
 
   view.rejection = ViewRejection::Position;  // pos(v)
   if (!bodyFits(input.pyramid.finest(), pose.translation(), config.body_m)) return view;
@@ -125,14 +139,7 @@ ViewUtility evaluateView(const UtilityInput& input, const HierarchicalPlannerCon
   view.unknown = static_cast<double>(voxels ? view.rays.unknown_voxels : view.rays.unknown);
   view.occupied = static_cast<double>(voxels ? view.rays.occupied_voxels : view.rays.occupied);
 
-  view.rejection = ViewRejection::Registration;  // Eq. 2
-  if (!overlapsKnownSurface(view, config)) return view;
-
-  view.rejection = ViewRejection::None;
-  view.surface = box_unknown == 0 ? 0.0 : view.unknown / static_cast<double>(box_unknown);  // Eq. 3
-  view.distance =
-      1.0 / (1.0 + configurationDistance(pose, input.current, config.rotation_weight_m_per_rad));  // Eq. 5
-  view.utility = view.surface * view.distance;  // Eq. 1, without a vision angle (D-A19)
+  judgeView(view, config, input.current, box_unknown);
   return view;
 }
 

@@ -129,6 +129,10 @@ ViewUtility evaluateView(const UtilityInput& input, const HierarchicalPlannerCon
 UtilitySearch searchUtility(const UtilityInput& input, const HierarchicalPlannerConfig& config,
                             const ReachPose& reach, const RunControl& control);
 
+/// Distinct first-hit unknown voxels of the object's box that a pose sees by uniform rays: the diagnostic
+/// ChosenView::gain_voxels.
+std::uint64_t countVoxels(const UtilityInput& input, const Pose& T_world_camera);
+
 /// Candidates by the configured generator. \param workspace where positions are drawn
 std::vector<ViewCandidate> makeCandidates(const HierarchicalPlannerConfig& config, const Box& object_box,
                                           const Box& workspace, std::uint64_t seed);

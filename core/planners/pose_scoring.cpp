@@ -1,6 +1,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
 #include <utility>
 
 #include "core/planners/contour_groups.h"
@@ -92,17 +94,9 @@ std::vector<PositionCounts> castAll(const ViewSearchInput& input, const std::vec
   return counts;
 }
 
-/// D-B15.
-bool executedBefore(const ViewSearchInput& input, const GainConfig& gain, const Pose& pose) {
-  return gain.exclude_executed &&
-         std::any_of(input.executed.begin(), input.executed.end(), [&](const Pose& e) {
-           return isNear(e, pose, gain.executed_distance_m, gain.executed_angle_rad);
-         });
-}
-
 /// The scores of one position's rolls.
-void appendScores(const ViewSearchInput& input, const ContourPlannerConfig& config,
-                  const ViewPosition& position, const PositionCounts& counts, SegmentSearch& search) {
+void appendScores(const ContourPlannerConfig& config, const ViewPosition& position,
+                  const PositionCounts& counts, SegmentSearch& search) {
   const auto distinct = static_cast<int>(counts.of_roll.size());
   const auto first_histogram = static_cast<std::int32_t>(search.histograms.size());
   for (int roll = 0; roll < config.views.rolls; ++roll) {
@@ -112,7 +106,6 @@ void appendScores(const ViewSearchInput& input, const ContourPlannerConfig& conf
     score.unknown = static_cast<std::uint32_t>(c.unknown);
     score.occupied = static_cast<std::uint32_t>(c.occupied);
     score.gain = static_cast<double>(c.unknown) * config.gain.reduction * config.gain.reduction;
-    score.executed_before = executedBefore(input, config.gain, rolledPose(position, roll, config.views));
     if (!c.histogram.empty()) score.histogram = first_histogram + roll % distinct;
     search.scores.push_back(score);
   }
@@ -121,6 +114,49 @@ void appendScores(const ViewSearchInput& input, const ContourPlannerConfig& conf
 }
 
 }  // namespace
+
+void markExecuted(const ViewSearchInput& input, const ContourPlannerConfig& config,
+                  std::vector<PoseScore>& scores) {
+  const GainConfig& gain = config.gain;
+  const auto rolls = static_cast<std::uint32_t>(config.views.rolls);
+  std::vector<Pose> near;  // executed at the position at hand
+  std::optional<std::uint32_t> at;
+  for (PoseScore& score : scores) {
+    const std::uint32_t n = score.id / rolls;
+    const ViewPosition& position = input.positions.at(n);
+    if (at != n) {
+      at = n;
+      near.clear();
+      if (gain.exclude_executed)
+        std::ranges::copy_if(input.executed, std::back_inserter(near), [&](const Pose& e) {
+          return (e.translation() - position.T_world_camera.translation()).norm() <= gain.executed_distance_m;
+        });
+    }
+    score.executed_before = std::ranges::any_of(near, [&](const Pose& e) {
+      return isNear(e, rolledPose(position, static_cast<int>(score.id % rolls), config.views),
+                    gain.executed_distance_m, gain.executed_angle_rad);
+    });
+  }
+}
+
+void rankByGain(std::vector<PoseScore>& scores) {
+  std::vector<std::uint64_t> order(scores.size());  // most unknown first, then the order of ids
+  for (std::size_t n = 0; n < scores.size(); ++n)
+    order[n] = std::uint64_t{~scores[n].unknown} << 32 | static_cast<std::uint32_t>(n);
+  std::sort(order.begin(), order.end());
+  std::vector<PoseScore> ranked;
+  ranked.reserve(scores.size());
+  for (const std::uint64_t entry : order) ranked.push_back(scores[static_cast<std::uint32_t>(entry)]);
+  scores = std::move(ranked);
+}
+
+std::uint64_t countVoxels(const ViewSearchInput& input, const ContourPlannerConfig& config,
+                          const SegmentSearch& search, const Pose& T_world_camera) {
+  VisibilityQuery region = regionQuery(input, config, search);
+  region.histogram_bins = 0;
+  region.distinct_voxels = true;
+  return castUniform(input.states, input.camera, T_world_camera, region).unknown_voxels;
+}
 
 void scoreSegment(const ViewSearchInput& input, const ContourPlannerConfig& config, SegmentSearch& search,
                   SearchCounts& counts, const RunControl& control) {
@@ -134,13 +170,12 @@ void scoreSegment(const ViewSearchInput& input, const ContourPlannerConfig& conf
   search.histograms.clear();
   search.scores.reserve(search.poses_generated);
   for (std::size_t n = 0; n < positions.size(); ++n) {
-    appendScores(input, config, input.positions[positions[n]], found[n], search);
+    appendScores(config, input.positions[positions[n]], found[n], search);
     counts.rays += found[n].rays;
     counts.voxels_visited += found[n].visited;
   }
-  std::sort(search.scores.begin(), search.scores.end(), [](const PoseScore& a, const PoseScore& b) {
-    return std::pair(-a.gain, a.id) < std::pair(-b.gain, b.id);
-  });
+  markExecuted(input, config, search.scores);
+  rankByGain(search.scores);
   search.scored = true;
   counts.poses_scored += search.scores.size();
   counts.poses_above_threshold += static_cast<std::uint64_t>(

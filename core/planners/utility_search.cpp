@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/planners/hierarchical_planner.h"
+#include "core/planners/utility_selection.h"
 
 namespace vantage {
 namespace {
@@ -38,41 +38,30 @@ void checkInput(const UtilityInput& input, const HierarchicalPlannerConfig& conf
     refuse("the object's box is empty; its lower corner must lie below its upper one");
 }
 
-class Search {
+std::vector<ViewUtility> evaluateAll(const UtilityInput& input, const HierarchicalPlannerConfig& config,
+                                     std::uint64_t box_unknown, const RunControl& control) {
+  std::vector<ViewUtility> views(input.candidates.size());
+  control.report("evaluate views", 0, views.size());
+  // One by one: some views cost a hundred times as much as others.
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, views.size()),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        for (std::size_t n = range.begin(); n != range.end(); ++n) {
+          control.check();
+          views[n] = evaluateView(input, config, input.candidates[n], box_unknown);
+        }
+      },
+      tbb::simple_partitioner());
+  control.report("evaluate views", views.size(), views.size());
+  return views;
+}
+
+/// Everything after the cascade.
+class Selection {
  public:
-  Search(const UtilityInput& input, const HierarchicalPlannerConfig& config, const ReachPose& reach,
-         const RunControl& control)
-      : input_(input), config_(config), reach_(reach), control_(control) {}
-
-  UtilitySearch run() {
-    const auto start = Clock::now();
-    evaluateAll();
-    rank();
-    result_.evaluation_s = secondsSince(start);
-    result_.box_occupied = input_.pyramid.finest().count(VoxelState::Occupied, input_.object_box);
-    count();
-    // D-A18: a search ends the exploration only if no survivor is worth a scan.
-    if (result_.best_unknown >= config_.stop_gain) choose();
-    return std::move(result_);
-  }
-
- private:
-  void evaluateAll() {
-    result_.box_unknown = input_.pyramid.finest().count(VoxelState::Unknown, input_.object_box);
-    result_.views.resize(input_.candidates.size());
-    control_.report("evaluate views", 0, result_.views.size());
-    // One by one: some views cost a hundred times as much as others.
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, result_.views.size()),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-          for (std::size_t n = range.begin(); n != range.end(); ++n) {
-            control_.check();
-            result_.views[n] = evaluateView(input_, config_, input_.candidates[n], result_.box_unknown);
-          }
-        },
-        tbb::simple_partitioner());
-    control_.report("evaluate views", result_.views.size(), result_.views.size());
-  }
+  Selection(UtilitySearch& search, const HierarchicalPlannerConfig& config, const ReachPose& reach,
+            const RunControl& control)
+      : result_(search), config_(config), reach_(reach), control_(control) {}
 
   void rank() {
     for (std::uint32_t n = 0; n < result_.views.size(); ++n)
@@ -121,24 +110,19 @@ class Search {
     }
   }
 
+ private:
   void take(const ViewUtility& view, MotionPlan plan) {
     ChosenView& chosen = result_.chosen.emplace();
     chosen.id = view.id;
     chosen.T_world_camera = view.T_world_camera;
     chosen.gain = view.unknown;
     chosen.path = std::move(plan);
-    HierarchicalQuery query;
-    query.bounds = input_.object_box;
-    query.distinct_voxels = true;
-    chosen.gain_voxels =
-        castUniformRays(input_.pyramid.finest(), input_.tree, view.T_world_camera, query).unknown_voxels;
   }
 
-  const UtilityInput& input_;
+  UtilitySearch& result_;
   const HierarchicalPlannerConfig& config_;
   const ReachPose& reach_;
   const RunControl& control_;
-  UtilitySearch result_;
 };
 
 }  // namespace
@@ -156,10 +140,36 @@ SearchEnd endOf(const UtilitySearch& search, double stop_gain) {
   return search.best_unknown < stop_gain ? SearchEnd::LittleUnknown : SearchEnd::Unreachable;
 }
 
+void selectUtility(UtilitySearch& search, const HierarchicalPlannerConfig& config, const ReachPose& reach,
+                   const RunControl& control) {
+  Selection selection(search, config, reach, control);
+  const auto start = Clock::now();
+  selection.rank();
+  search.evaluation_s += secondsSince(start);
+  selection.count();
+  // D-A18: a search ends the exploration only if no survivor is worth a scan.
+  if (search.best_unknown >= config.stop_gain) selection.choose();
+}
+
+std::uint64_t countVoxels(const UtilityInput& input, const Pose& T_world_camera) {
+  HierarchicalQuery query;
+  query.bounds = input.object_box;
+  query.distinct_voxels = true;
+  return castUniformRays(input.pyramid.finest(), input.tree, T_world_camera, query).unknown_voxels;
+}
+
 UtilitySearch searchUtility(const UtilityInput& input, const HierarchicalPlannerConfig& config,
                             const ReachPose& reach, const RunControl& control) {
   checkInput(input, config);
-  return Search(input, config, reach, control).run();
+  UtilitySearch search;
+  const auto start = Clock::now();
+  search.box_unknown = input.pyramid.finest().count(VoxelState::Unknown, input.object_box);
+  search.views = evaluateAll(input, config, search.box_unknown, control);
+  search.evaluation_s = secondsSince(start);
+  search.box_occupied = input.pyramid.finest().count(VoxelState::Occupied, input.object_box);
+  selectUtility(search, config, reach, control);
+  if (search.chosen) search.chosen->gain_voxels = countVoxels(input, search.chosen->T_world_camera);
+  return search;
 }
 
 }  // namespace vantage

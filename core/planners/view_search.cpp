@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "core/planners/contour_groups.h"
+#include "core/planners/view_selection.h"
 
 namespace vantage {
 namespace {
@@ -35,28 +36,29 @@ void checkInput(const ViewSearchInput& input, const ContourPlannerConfig& config
 }
 
 /// Lines 7-17 of Algorithm 1 with everything that they collect.
-class Search {
+class Selection {
  public:
-  Search(const ViewSearchInput& input, const ContourPlannerConfig& config, const ReachPose& reach,
-         const RunControl& control)
-      : input_(input), config_(config), reach_(reach), control_(control) {}
+  Selection(const ViewSearchInput& input, const ContourPlannerConfig& config, const GroupScores& scores,
+            const ReachPose& reach, const RunControl& control)
+      : input_(input), config_(config), scores_(scores), reach_(reach), control_(control) {}
 
-  ViewSearch run() {
+  ViewSelection run() {
     result_.segments = contourGroups(input_, config_);
     result_.counts.poses_generated =
         input_.positions.size() * static_cast<std::uint64_t>(config_.views.rolls);
     for (std::uint32_t s = 0; s < result_.segments.size() && !result_.chosen; ++s) {
-      score(result_.segments[s]);
+      if (!score(result_.segments[s])) return {std::move(result_), s};
       choose(s);
     }
-    return std::move(result_);
+    return {std::move(result_), std::nullopt};
   }
 
  private:
-  void score(SegmentSearch& segment) {
+  bool score(SegmentSearch& segment) {
     const auto start = Clock::now();
-    scoreSegment(input_, config_, segment, result_.counts, control_);
+    const bool known = scores_(segment, result_.counts);
     result_.evaluation_s += secondsSince(start);
+    return known;
   }
 
   /// Lines 12-14: the first pose in rank order above the threshold that can be reached.
@@ -112,14 +114,11 @@ class Search {
     view.T_world_camera = poseOf(view.id);
     view.gain = segment.scores[rank].gain;
     view.path = std::move(plan);
-    VisibilityQuery region = regionQuery(input_, config_, segment);
-    region.histogram_bins = 0;
-    region.distinct_voxels = true;
-    view.gain_voxels = castUniform(input_.states, input_.camera, view.T_world_camera, region).unknown_voxels;
   }
 
   const ViewSearchInput& input_;
   const ContourPlannerConfig& config_;
+  const GroupScores& scores_;
   const ReachPose& reach_;
   const RunControl& control_;
   std::unordered_map<std::uint32_t, Reachability> unreachable_;  ///< by position
@@ -128,10 +127,23 @@ class Search {
 
 }  // namespace
 
+ViewSelection selectView(const ViewSearchInput& input, const ContourPlannerConfig& config,
+                         const GroupScores& scores, const ReachPose& reach, const RunControl& control) {
+  checkInput(input, config);
+  return Selection(input, config, scores, reach, control).run();
+}
+
 ViewSearch searchView(const ViewSearchInput& input, const ContourPlannerConfig& config,
                       const ReachPose& reach, const RunControl& control) {
-  checkInput(input, config);
-  return Search(input, config, reach, control).run();
+  const GroupScores cast = [&](SegmentSearch& group, SearchCounts& counts) {
+    scoreSegment(input, config, group, counts, control);
+    return true;
+  };
+  ViewSearch search = selectView(input, config, cast, reach, control).search;
+  if (search.chosen)
+    search.chosen->gain_voxels =
+        countVoxels(input, config, search.segments[search.chosen->search], search.chosen->T_world_camera);
+  return search;
 }
 
 }  // namespace vantage

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/exploration/plan_view.h"
+#include "core/exploration/replan.h"
 #include "core/geometry/check.h"
 #include "io/json_summary.h"
 #include "io/table_file.h"
@@ -22,28 +23,17 @@ struct PlanOptions {
 };
 
 /// Reachability without a robot: from the pose of a recorded step a path is planned; for a map alone the
-/// sensor only has to fit. A replay offers what its recording can serve. Where verdicts are only reported,
-/// the last one is kept in `reported`.
-ReachPose makeReach(const CollisionGrid& grid, const LoadedMap& map, MotionPlan& reported) {
-  std::optional<Pose> start;
-  if (map.record && !map.record->scan.empty()) start = map.record->scan.back().T_world_camera;
-  const ExplorationConfig& config = map.settings.exploration;
-  const bool serve = !map.recording.empty() && config.serve_distance_m > 0.0;
-  return
-      [&grid, &reported, &config, start, step = map.step, flyer = map.settings.free_flyer, seed = config.seed,
-       enforce = config.enforce_reachability, serve, left = serve ? posesLeft(map) : std::vector<ScanPose>(),
-       tried = std::uint64_t{0}](const Pose& pose) mutable {
-        MotionPlan plan;
-        if (serve && !config.serves(left, pose)) {
-          plan.verdict = Reachability::NoFrame;
-          return plan;
-        }
-        if (start)
-          plan = planPath(grid, *start, pose, flyer, pathSeed(seed, step, tried++));
-        else
-          plan.verdict = checkPosition(grid, pose.translation(), flyer);
-        return judged(std::move(plan), enforce, reported);
-      };
+/// sensor only has to fit. A replay offers what its recording can serve.
+ReachPose makeReach(const CollisionGrid& collision, const LoadedMap& map, MotionPlan& reported) {
+  StepReach reach{.collision = collision,
+                  .robot = map.settings.free_flyer,
+                  .exploration = map.settings.exploration,
+                  .step = map.step,
+                  .start = {},
+                  .left = {}};
+  if (map.record && !map.record->scan.empty()) reach.start = map.record->scan.back().T_world_camera;
+  if (!map.recording.empty() && map.settings.exploration.serve_distance_m > 0.0) reach.left = posesLeft(map);
+  return stepReach(std::move(reach), reported);
 }
 
 std::vector<PlanRow> rankedViews(const StepRecord& record, const ContourViewConfig& views) {
