@@ -45,11 +45,8 @@ std::vector<float>& contentOf(OctreeBrick& brick) {
 using vantage::contentOf;
 
 template <class Brick>
-using Voxel = typename std::remove_cvref_t<decltype(contentOf(std::declval<const Brick&>()))>::value_type;
-
-template <class Brick>
 StoredProduct storeChunk(std::span<const Brick> bricks, ProductWriter content) {
-  constexpr std::size_t kBytes = sizeof(Voxel<Brick>);
+  constexpr std::size_t kBytes = sizeof(BrickVoxel<Brick>);
   std::vector<std::uint32_t> index;
   std::vector<std::uint16_t> sizes;
   std::size_t total = 0;
@@ -73,27 +70,15 @@ StoredProduct storeChunk(std::span<const Brick> bricks, ProductWriter content) {
   return storeProduct(content);
 }
 
+/// All bricks of a product.
 template <class Brick>
-std::vector<Brick> openChunk(const OpenedProduct& opened) {
-  constexpr std::size_t kBytes = sizeof(Voxel<Brick>);
-  ByteReader reader = opened.reader();
-  std::vector<std::uint32_t> index;
-  std::vector<std::uint16_t> sizes;
-  reader(index, sizes);
-  if (index.size() != sizes.size()) throw DamagedBytes("bricks without a size");
-  std::size_t total = 0;
-  for (const std::uint16_t size : sizes) total += size;
-  const std::uint8_t* planes = reader.raw(total * kBytes).data();
-  reader.requireEnd();
-  std::vector<Brick> bricks(index.size());
-  for (std::size_t i = 0; i < bricks.size(); ++i) {
-    bricks[i].brick = index[i];
-    auto& voxels = contentOf(bricks[i]);
-    voxels.resize(sizes[i]);
-    fromPlanes(planes, reinterpret_cast<std::uint8_t*>(voxels.data()), sizes[i], kBytes, total);
-    planes += sizes[i];
+void appendChunk(const BrickChunk<Brick>& chunk, std::vector<Brick>& bricks) {
+  for (std::size_t i = 0; i < chunk.bricks().size(); ++i) {
+    Brick& brick = bricks.emplace_back();
+    brick.brick = chunk.bricks()[i];
+    contentOf(brick).resize(chunk.voxels(i));
+    chunk.read(i, contentOf(brick).data());
   }
-  return bricks;
 }
 
 template <class Brick>
@@ -286,9 +271,9 @@ StepRecord openRecord(int step, bool closing, const FetchProduct& fetch, RunDeta
   const auto takeBricks = [&]<class Brick>(std::shared_ptr<const std::vector<Brick>>& bricks) {
     if (std::ranges::none_of(content.products, isBricks<Brick>)) return;
     auto all = std::make_shared<std::vector<Brick>>();
-    openBricks<Brick>(step, closing, fetch, [&](std::vector<Brick> chunk) {
-      all->insert(all->end(), std::move_iterator(chunk.begin()), std::move_iterator(chunk.end()));
-    });
+    for (const std::string& name : content.products)
+      if (isBricks<Brick>(name))
+        appendChunk(BrickChunk<Brick>(openProduct(fetch(bricksStage(closing), name), step)), *all);
     bricks = std::move(all);
   };
   if (detail == RunDetail::All) {
@@ -298,16 +283,38 @@ StepRecord openRecord(int step, bool closing, const FetchProduct& fetch, RunDeta
   return record;
 }
 
-template <class Brick>
-void openBricks(int step, bool closing, const FetchProduct& fetch,
-                const std::function<void(std::vector<Brick>)>& take) {
-  for (const std::string& name : openContent(step, closing, fetch).products)
-    if (isBricks<Brick>(name))
-      take(openChunk<Brick>(openProduct(fetch(closing ? kClosingStage : "fuse", name), step)));
+std::string bricksStage(bool closing) {
+  return closing ? kClosingStage : "fuse";
 }
-template void openBricks<TsdfBrick>(int, bool, const FetchProduct&,
-                                    const std::function<void(std::vector<TsdfBrick>)>&);
-template void openBricks<OctreeBrick>(int, bool, const FetchProduct&,
-                                      const std::function<void(std::vector<OctreeBrick>)>&);
+
+template <class Brick>
+std::vector<std::string> brickChunks(int step, bool closing, const FetchProduct& fetch) {
+  std::vector<std::string> names = openContent(step, closing, fetch).products;
+  std::erase_if(names, [](const std::string& name) { return !isBricks<Brick>(name); });
+  return names;
+}
+template std::vector<std::string> brickChunks<TsdfBrick>(int, bool, const FetchProduct&);
+template std::vector<std::string> brickChunks<OctreeBrick>(int, bool, const FetchProduct&);
+
+template <class Brick>
+BrickChunk<Brick>::BrickChunk(OpenedProduct opened) : opened_(std::move(opened)), begin_(1, 0) {
+  ByteReader reader = opened_.reader();
+  std::vector<std::uint16_t> sizes;
+  reader(bricks_, sizes);
+  if (bricks_.size() != sizes.size()) throw DamagedBytes("bricks without a size");
+  for (const std::uint16_t size : sizes) begin_.push_back(begin_.back() + size);
+  planes_ = opened_.bytes.size() - reader.remaining();
+  reader.raw(begin_.back() * sizeof(BrickVoxel<Brick>));
+  reader.requireEnd();
+}
+
+template <class Brick>
+void BrickChunk<Brick>::read(std::size_t i, BrickVoxel<Brick>* to) const {
+  fromPlanes(opened_.bytes.data() + planes_ + begin_[i], reinterpret_cast<std::uint8_t*>(to), voxels(i),
+             sizeof(BrickVoxel<Brick>), begin_.back());
+}
+
+template class BrickChunk<TsdfBrick>;
+template class BrickChunk<OctreeBrick>;
 
 }  // namespace vantage

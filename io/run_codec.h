@@ -3,6 +3,8 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/exploration/step_record.h"
@@ -76,11 +78,6 @@ using FetchProduct = std::function<StoredProduct(const std::string& stage, const
 /// The record back from its products; realised_voxels is left empty. \throws DamagedBytes
 StepRecord openRecord(int step, bool closing, const FetchProduct& fetch, RunDetail detail);
 
-/// Bricks of one of the maps of a step, TsdfBrick or OctreeBrick, chunk by chunk. \throws DamagedBytes
-template <class Brick>
-void openBricks(int step, bool closing, const FetchProduct& fetch,
-                const std::function<void(std::vector<Brick>)>& take);
-
 /// Voxels of a brick of either map.
 inline const std::vector<TsdfVoxel>& contentOf(const TsdfBrick& brick) {
   return brick.voxels;
@@ -88,6 +85,35 @@ inline const std::vector<TsdfVoxel>& contentOf(const TsdfBrick& brick) {
 inline const std::vector<float>& contentOf(const OctreeBrick& brick) {
   return brick.log_odds;
 }
+template <class Brick>
+using BrickVoxel =
+    typename std::remove_cvref_t<decltype(contentOf(std::declval<const Brick&>()))>::value_type;
+
+/// Names of the products with the bricks of one of the maps of a step, TsdfBrick or OctreeBrick.
+/// \throws DamagedBytes
+template <class Brick>
+std::vector<std::string> brickChunks(int step, bool closing, const FetchProduct& fetch);
+
+/// Stage under which the bricks of a step lie.
+std::string bricksStage(bool closing);
+
+/// One product with bricks, opened: which they are, and their voxels on request. Several threads may read.
+template <class Brick>
+class BrickChunk {
+ public:
+  /// \throws DamagedBytes
+  explicit BrickChunk(OpenedProduct opened);
+  std::span<const std::uint32_t> bricks() const { return bricks_; }
+  std::size_t voxels(std::size_t i) const { return begin_[i + 1] - begin_[i]; }
+  /// Voxels of the i-th brick. \pre as many fit
+  void read(std::size_t i, BrickVoxel<Brick>* voxels) const;
+
+ private:
+  OpenedProduct opened_;
+  std::vector<std::uint32_t> bricks_;
+  std::vector<std::size_t> begin_;  ///< of each brick in the planes, and the end
+  std::size_t planes_ = 0;          ///< where they begin in the product
+};
 
 /// Names under which a record's scalars, and the realised gain that comes later, are stored.
 inline constexpr const char* kRecordStage = "record";

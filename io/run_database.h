@@ -84,6 +84,7 @@ class Statement {
 
   bool isNull(int column) const;
   std::int64_t integer(int column) const;
+  double real(int column) const;
   std::string text(int column) const;
   std::vector<std::uint8_t> blob(int column) const;
   std::int64_t blobSize(int column) const;

@@ -46,7 +46,7 @@ struct RunHeader {
 enum class RunDetail {
   All,
   NoVolume
-};  ///< NoVolume leaves the changed bricks empty; advanceVolume() and advanceOctree() give the maps
+};  ///< NoVolume leaves the changed bricks empty; moveVolume() and moveOctree() give the maps
 
 /// One stored product, for listings.
 struct ProductInfo {
@@ -80,6 +80,37 @@ class RunWriter {
   std::unique_ptr<State> state_;
 };
 
+/// What lies at the path of a run that was opened.
+enum class RunFileState {
+  Same,
+  Replaced,  ///< another file, or a finished run that changed
+  Gone
+};
+
+/// Key figures of a step; empty = not known, or not of its planner.
+struct StepSummary {
+  int step = 0;
+  bool closing = false;  ///< the scan at the last view: figures of the map alone
+  std::string planner;   ///< name of the PlannerKind; empty in old runs and of the closing scan
+  bool has_view = false;
+  std::uint64_t unknown_voxels = 0;                   ///< in the workspace
+  std::optional<std::uint64_t> unknown_near_objects;  ///< U_tau
+  std::optional<std::uint64_t> unknown_in_boxes;      ///< U_box
+  std::optional<double> coverage;                     ///< share in [0, 1]
+  std::optional<std::uint64_t> box_unknown;           ///< octree voxels in the object's box
+  std::optional<std::uint64_t> box_occupied;
+  // Of the chosen view:
+  std::optional<double> gain;  ///< as predicted: rays, or utility
+  std::optional<std::uint64_t> gain_voxels;
+  std::optional<std::uint64_t> realised_voxels;  ///< known once the next scan is fused
+  std::optional<double> saliency, utility, path_length_m;
+  std::optional<bool> toward_object;
+  // Work:
+  std::optional<std::uint64_t> segments, poses_generated, poses_scored, rays;
+  double planning_s = 0.0;  ///< contours to motion planning
+  bool operator==(const StepSummary&) const = default;
+};
+
 /// Reads a run file, also while it is written. One step is decoded at a time.
 class RunReader {
  public:
@@ -97,15 +128,21 @@ class RunReader {
   StepRecord step(int step, RunDetail detail = RunDetail::All) const;
   StepRecord closing(RunDetail detail = RunDetail::All) const;
 
+  /// What can be told of the steps without their products, by step; the closing scan is the last.
+  std::vector<StepSummary> summaries() const;
+  /// Whether what was opened still lies at its path. A run in progress may grow and stay the same.
+  RunFileState fileState() const;
+
   /// What is stored, by step, stage and name.
   std::vector<ProductInfo> products() const;
 
-  /// The volume as it was when `step` was planned: applies the bricks of the steps after `from_step` up to
-  /// `step` to `volume`, which holds the state of `from_step` (0 = empty volume). closingStep() names the map
-  /// after the last scan. Returns the bricks that changed.
-  BrickSet advanceVolume(TsdfVolume& volume, int from_step, int step) const;
+  /// Brings a volume from `from_step`, whose state it holds (0 = empty volume), to the state in which `step`
+  /// was planned, in either direction. closingStep() names the map after the last scan. Returns the bricks
+  /// that may have changed. \throws InputError, and then the volume is between the two; std::invalid_argument
+  /// for steps out of range or another geometry.
+  BrickSet moveVolume(TsdfVolume& volume, int from_step, int step) const;
   /// The same for the octree of the hierarchical planner; make it with emptyOctree().
-  BrickSet advanceOctree(OccupancyOctree& octree, int from_step, int step) const;
+  BrickSet moveOctree(OccupancyOctree& octree, int from_step, int step) const;
   int closingStep() const;  ///< last step + 1
 
  private:

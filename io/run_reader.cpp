@@ -1,3 +1,5 @@
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <fstream>
 #include <mutex>
@@ -8,6 +10,7 @@
 #include "io/run_database.h"
 #include "io/run_fields.h"
 #include "io/run_file.h"
+#include "io/run_maps.h"
 #include "io/run_schema.h"
 
 namespace vantage {
@@ -148,6 +151,26 @@ void addRealised(Database& database, StepRecord& record, int step) {
   record.served = realised.served;
 }
 
+/// What tells one file from another that later lies at its path.
+struct FileIdentity {
+  std::uint64_t device = 0, number = 0;
+  std::int64_t size = 0, changed_s = 0, changed_ns = 0;
+  bool there = false;
+  bool sameFile(const FileIdentity& other) const {
+    return there && other.there && device == other.device && number == other.number;
+  }
+  bool sameContent(const FileIdentity& other) const {
+    return sameFile(other) && size == other.size && changed_s == other.changed_s &&
+           changed_ns == other.changed_ns;
+  }
+};
+
+FileIdentity identify(const fs::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return {};
+  return {status.st_dev, status.st_ino, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec, true};
+}
+
 /// Grid of the octree of a run that has one.
 GridGeometry octreeGrid(const RunHeader& header) {
   return OccupancyOctree::gridAround(header.volume.bounds(), header.octree->map.voxel_size_m);
@@ -160,6 +183,11 @@ struct RunReader::State {
   RunHeader header;
   mutable std::mutex mutex;
   mutable std::unique_ptr<Database> finished;  ///< kept open once nobody writes
+  FileIdentity identity;
+  mutable FileIdentity finished_identity;  ///< when it was opened for good
+  mutable std::mutex history_mutex;
+  mutable MapHistory<TsdfBrick> volume_history;
+  mutable MapHistory<OctreeBrick> octree_history;
 
   /// Does something with the database as it is at one moment. A run in progress is opened anew each time: a
   /// connection that stays open would keep its writer from folding the files into one.
@@ -169,11 +197,12 @@ struct RunReader::State {
     try {
       std::unique_ptr<Database> following;
       if (!finished) {
+        requireSame();
         const DatabaseMode mode = modeOf(path);
         following = std::make_unique<Database>(path, mode);
         requireRun(*following);
         if (mode == DatabaseMode::Finished && following->text("PRAGMA journal_mode") != "wal")
-          finished = std::move(following);
+          becomeFinished(std::move(following));
       }
       Database& database = finished ? *finished : *following;
       database.setTask(task);
@@ -188,39 +217,39 @@ struct RunReader::State {
     }
   }
 
+  /// \throws InputError if the file that was opened does not lie at its path any more.
+  void requireSame() const {
+    requireFile(path);
+    if (!identity.sameFile(identify(path)))
+      throw InputError(path.string(), "was replaced by another file; open it again");
+  }
+
+  void becomeFinished(std::unique_ptr<Database> database) const {
+    finished = std::move(database);
+    finished_identity = identify(path);
+  }
+
   Contents contents() const {
     return with("list of steps", [](Database& d) { return readContents(d); });
   }
 
-  /// Applies the bricks of the steps after `from_step` up to `step` to a map.
+  /// Brings a map from one step to another.
   template <class Brick, class Map>
-  BrickSet advance(Map& map, int from_step, int step) const {
+  BrickSet move(MapHistory<Brick>& history, Map& map, int from_step, int step) const {
     const Contents all = contents();
     const int last = all.closing ? all.closingStep() : all.closingStep() - 1;
-    if (from_step < 0 || step < from_step || step > last)
-      throw std::invalid_argument("advancing a map: steps " + std::to_string(from_step) + " to " +
+    if (std::min(from_step, step) < 0 || std::max(from_step, step) > last)
+      throw std::invalid_argument("moving a map: steps " + std::to_string(from_step) + " to " +
                                   std::to_string(step) + " are out of range; allowed: 0 .. " +
-                                  std::to_string(last) + ", ascending");
-    const BrickLayout& layout = map.bricks();
-    BrickSet changed(layout.total());
-    const auto apply = [&](std::vector<Brick> bricks) {
-      for (const Brick& brick : bricks) {
-        if (brick.brick >= layout.total()) throw DamagedBytes("a brick outside the map");
-        const BrickRange range = layout.range(brick.brick);
-        const Eigen::Vector3i size = range.end - range.begin;
-        if (static_cast<std::size_t>(size.prod()) != contentOf(brick).size())
-          throw DamagedBytes("a brick of the wrong size");
-        map.setBrick(brick.brick, contentOf(brick));
-        changed.insert(brick.brick);
-      }
-    };
-    for (int k = from_step + 1; k <= step; ++k) {
-      const bool closing = all.closing && k == all.closingStep();
-      if (!closing && !std::ranges::binary_search(all.steps, k)) continue;
-      with("step " + std::to_string(k),
-           [&](Database& database) { openBricks<Brick>(k, closing, fetchFrom(database, k), apply); });
-    }
-    return changed;
+                                  std::to_string(last));
+    std::vector<MapStep> steps;
+    for (const int number : all.steps) steps.push_back({number, false});
+    if (all.closing) steps.push_back({all.closingStep(), true});
+    const std::lock_guard lock(history_mutex);
+    return history.move(map, steps, from_step, step, [&](const MapStep& at, const auto& action) {
+      with("step " + std::to_string(at.number),
+           [&](Database& database) { action(fetchFrom(database, at.number)); });
+    });
   }
 
   StepRecord record(int step, bool closing, RunDetail detail) const {
@@ -235,6 +264,7 @@ struct RunReader::State {
 RunReader::RunReader(const std::filesystem::path& path) : state_(std::make_unique<State>()) {
   requireFile(path);
   state_->path = path;
+  state_->identity = identify(path);
   state_->header = state_->with("header", [](Database& database) {
     const auto header = findRunProduct(database, "header");
     const auto truth = findRunProduct(database, "truth");
@@ -297,18 +327,30 @@ std::vector<ProductInfo> RunReader::products() const {
   });
 }
 
-BrickSet RunReader::advanceVolume(TsdfVolume& volume, int from_step, int step) const {
-  if (!(volume.geometry() == state_->header.volume))
-    throw std::invalid_argument(
-        "advanceVolume: the volume differs from the run's; make it with header().volume");
-  return state_->advance<TsdfBrick>(volume, from_step, step);
+std::vector<StepSummary> RunReader::summaries() const {
+  return state_->with("list of steps", [](Database& d) { return readSummaries(d); });
 }
 
-BrickSet RunReader::advanceOctree(OccupancyOctree& octree, int from_step, int step) const {
-  if (!state_->header.octree || !(octree.geometry() == octreeGrid(state_->header)))
+RunFileState RunReader::fileState() const {
+  const FileIdentity now = identify(state_->path);
+  if (!now.there) return RunFileState::Gone;
+  const std::lock_guard lock(state_->mutex);
+  const bool same =
+      state_->finished ? state_->finished_identity.sameContent(now) : state_->identity.sameFile(now);
+  return same ? RunFileState::Same : RunFileState::Replaced;
+}
+
+BrickSet RunReader::moveVolume(TsdfVolume& volume, int from_step, int step) const {
+  if (!(volume.geometry() == state_->header.volume))
     throw std::invalid_argument(
-        "advanceOctree: the octree differs from the run's; make it with emptyOctree()");
-  return state_->advance<OctreeBrick>(octree, from_step, step);
+        "moveVolume: the volume differs from the run's; make it with header().volume");
+  return state_->move(state_->volume_history, volume, from_step, step);
+}
+
+BrickSet RunReader::moveOctree(OccupancyOctree& octree, int from_step, int step) const {
+  if (!state_->header.octree || !(octree.geometry() == octreeGrid(state_->header)))
+    throw std::invalid_argument("moveOctree: the octree differs from the run's; make it with emptyOctree()");
+  return state_->move(state_->octree_history, octree, from_step, step);
 }
 
 OccupancyOctree emptyOctree(const RunHeader& header) {

@@ -29,6 +29,9 @@ void insertClosing(Database& database, const StepRecord& record, int step);
 /// Fills in the columns of a step that were not known when it was stored.
 void updateRealised(Database& database, const Realised& realised, int step);
 
+/// What the tables tell of the steps; columns that an old run lacks are empty.
+std::vector<StepSummary> readSummaries(Database& database);
+
 /// Adds or replaces a row of `run`.
 void putRunValue(Database& database, const std::string& key, const std::string& value);
 

@@ -24,7 +24,7 @@ void StepMaps::advanceVolume(int step) {
     states_ = StateGrid(reader_.header().volume);
   }
   if (step == volume_step_) return;
-  states_.update(*volume_, reader_.advanceVolume(*volume_, volume_step_, step));
+  states_.update(*volume_, reader_.moveVolume(*volume_, volume_step_, step));
   volume_step_ = step;
 }
 
@@ -37,7 +37,7 @@ void StepMaps::advanceOctree(int step) {
     tree_ = RayTree(octree.planner.sensor, octree.map.voxel_size_m, octree.planner.coarse_levels);
   }
   if (step == octree_step_) return;
-  pyramid_.update(*octree_, reader_.advanceOctree(*octree_, octree_step_, step));
+  pyramid_.update(*octree_, reader_.moveOctree(*octree_, octree_step_, step));
   octree_step_ = step;
 }
 

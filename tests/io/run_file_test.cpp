@@ -124,7 +124,11 @@ TEST(RunFile, OpensRunsOfTheFirstVersion) {
   EXPECT_FALSE(step.hasView());
   EXPECT_FALSE(step.utilities || step.box || step.changed_octree_bricks);
   TsdfVolume volume(run.header().volume);
-  EXPECT_FALSE(run.advanceVolume(volume, 0, 1).empty());
+  EXPECT_FALSE(run.moveVolume(volume, 0, 1).empty());
+  const std::vector<StepSummary> summaries = run.summaries();
+  ASSERT_FALSE(summaries.empty());
+  EXPECT_EQ(summaries[0].poses_scored, 1680u);
+  EXPECT_FALSE(summaries[0].utility || summaries[0].box_unknown);
 }
 
 TEST(RunFile, GivesBackTheOctreeAsItWasAtEveryStep) {
@@ -157,11 +161,20 @@ TEST(RunFile, GivesBackTheOctreeAsItWasAtEveryStep) {
   const RunReader run(folder / "a.vantage");
   OccupancyOctree read = emptyOctree(run.header());
   for (int step = 1; step <= 3; ++step) {
-    run.advanceOctree(read, step - 1, step);
+    run.moveOctree(read, step - 1, step);
     const std::vector<OctreeBrick> bricks = readAll(read);
     for (std::size_t b = 0; b < bricks.size(); ++b)
       EXPECT_TRUE(std::ranges::equal(bricks[b].log_odds, maps[step - 1][b].log_odds, same))
           << step << " " << b;
+  }
+  for (const int step : {1, 0}) {
+    run.moveOctree(read, step == 1 ? 3 : 1, step);
+    const std::vector<OctreeBrick> bricks = readAll(read);
+    for (std::size_t b = 0; b < bricks.size(); ++b)
+      for (std::size_t v = 0; v < bricks[b].log_odds.size(); ++v)
+        EXPECT_TRUE(step == 0 ? std::isnan(bricks[b].log_odds[v])
+                              : same(bricks[b].log_odds[v], maps[step - 1][b].log_odds[v]))
+            << step << " " << b;
   }
   header.octree.reset();
   EXPECT_THROW(emptyOctree(header), std::invalid_argument);
@@ -231,17 +244,97 @@ TEST(RunFile, RebuildsTheVolumeOfEveryStep) {
   for (int step = 1; step <= 4; ++step) {
     const StepRecord record = randomRecord(20 + step, step, step == 4);
     for (const TsdfBrick& brick : *record.changed_bricks) expected.setBrick(brick.brick, brick.voxels);
-    const BrickSet changed = reader.advanceVolume(forward, step - 1, step);
+    const BrickSet changed = reader.moveVolume(forward, step - 1, step);
     EXPECT_EQ(changed.list().size(), record.changed_bricks->size());
     TsdfVolume direct(testGrid());
-    reader.advanceVolume(direct, 0, step);
+    reader.moveVolume(direct, 0, step);
     EXPECT_TRUE(std::ranges::equal(forward.voxels(), expected.voxels())) << step;
     EXPECT_TRUE(std::ranges::equal(direct.voxels(), expected.voxels())) << step;
   }
-  EXPECT_THROW(reader.advanceVolume(forward, 0, 5), std::invalid_argument);
-  EXPECT_THROW(reader.advanceVolume(forward, 2, 1), std::invalid_argument);
+  EXPECT_THROW(reader.moveVolume(forward, 0, 5), std::invalid_argument);
+  EXPECT_THROW(reader.moveVolume(forward, 5, 1), std::invalid_argument);
+  EXPECT_THROW(reader.moveVolume(forward, -1, 1), std::invalid_argument);
   TsdfVolume other({{0, 0, 0}, 0.01, {4, 4, 4}});
-  EXPECT_THROW(reader.advanceVolume(other, 0, 1), std::invalid_argument);
+  EXPECT_THROW(reader.moveVolume(other, 0, 1), std::invalid_argument);
+}
+
+TEST(RunFile, MovesTheVolumeFromAnyStepToAnyOther) {
+  const TestFolder folder;
+  writeRun(folder / "a.vantage", 60, 4);
+  std::vector<TsdfVolume> expected(6, TsdfVolume(testGrid()));
+  for (int step = 1; step <= 5; ++step) {
+    expected[step] = expected[step - 1];
+    const StepRecord record = randomRecord(60 + step, step, step == 5);
+    for (const TsdfBrick& brick : *record.changed_bricks) expected[step].setBrick(brick.brick, brick.voxels);
+  }
+  std::mt19937 random(3);
+  for (int round = 0; round < 10; ++round) {
+    const RunReader reader(folder / "a.vantage");  // knows nothing yet of the bricks
+    TsdfVolume volume(testGrid());
+    for (int from = 0, moves = 0; moves < 6; ++moves) {
+      const int to = static_cast<int>(random() % 6);
+      const BrickSet changed = reader.moveVolume(volume, from, to);
+      EXPECT_TRUE(std::ranges::equal(volume.voxels(), expected[to].voxels())) << from << " to " << to;
+      for (std::uint32_t b = 0; b < changed.total(); ++b)
+        EXPECT_TRUE(changed.contains(b) || expected[from].brick(b) == expected[to].brick(b)) << b;
+      from = to;
+    }
+  }
+}
+
+TEST(RunFile, TellsTheFiguresOfItsStepsWithoutTheirProducts) {
+  const TestFolder folder;
+  writeRun(folder / "a.vantage", 70, 2);
+  const std::vector<StepSummary> all = RunReader(folder / "a.vantage").summaries();
+  ASSERT_EQ(all.size(), 3u);
+  for (int step = 1; step <= 2; ++step) {
+    const StepRecord record = randomRecord(70 + step, step);
+    const StepSummary& summary = all[step - 1];
+    EXPECT_EQ(summary.step, step);
+    EXPECT_FALSE(summary.closing);
+    EXPECT_EQ(summary.planner, record.planner);
+    ASSERT_TRUE(summary.has_view);
+    EXPECT_EQ(summary.unknown_voxels, record.metrics.unknown_voxels);
+    EXPECT_EQ(summary.coverage, record.metrics.coverage);
+    EXPECT_EQ(summary.box_unknown, record.box->unknown);
+    EXPECT_EQ(summary.gain, record.chosen()->gain);
+    EXPECT_EQ(summary.gain_voxels, record.chosen()->gain_voxels);
+    EXPECT_EQ(summary.realised_voxels, record.realised_voxels);
+    EXPECT_EQ(summary.toward_object, record.toward_object);
+    EXPECT_EQ(summary.poses_scored, record.counts()->poses_scored);
+    EXPECT_EQ(summary.segments, record.labels->count);
+    const Timings& t = record.timings;
+    EXPECT_DOUBLE_EQ(summary.planning_s, *t.contours + *t.surface + *t.segmentation + *t.saliency +
+                                             *t.generation + *t.evaluation + *t.collision_map +
+                                             *t.motion_planning);
+  }
+  EXPECT_TRUE(all[2].closing);
+  EXPECT_FALSE(all[2].has_view);
+  EXPECT_EQ(all[2].unknown_voxels, randomRecord(73, 3, true).metrics.unknown_voxels);
+}
+
+TEST(RunFile, NoticesWhatBecomesOfItsFile) {
+  const TestFolder folder;
+  const fs::path path = folder / "a.vantage";
+  auto writer = std::make_unique<RunWriter>(path, randomHeader(1));
+  const RunReader reader(path);
+  writer->write(randomRecord(1, 1));
+  EXPECT_EQ(reader.fileState(), RunFileState::Same);
+  writer->finish("steps done");
+  writer.reset();
+  EXPECT_EQ(reader.steps(), std::vector{1});
+  EXPECT_EQ(reader.fileState(), RunFileState::Same);
+  writer = std::make_unique<RunWriter>(path, randomHeader(2));
+  EXPECT_EQ(reader.fileState(), RunFileState::Replaced);
+  EXPECT_EQ(reader.steps(), std::vector{1}) << "a finished run stays readable";
+  const RunReader second(path);
+  writer = std::make_unique<RunWriter>(path, randomHeader(3));
+  EXPECT_EQ(second.fileState(), RunFileState::Replaced);
+  EXPECT_THAT(inputError([&] { second.steps(); }), HasSubstr("was replaced"));
+  writer.reset();
+  fs::remove(path);
+  EXPECT_EQ(second.fileState(), RunFileState::Gone);
+  EXPECT_THAT(inputError([&] { second.steps(); }), HasSubstr("does not exist"));
 }
 
 TEST(RunFile, LeavesTheVolumeOutOnRequest) {

@@ -133,11 +133,11 @@ LoadedMap loadRunMap(const GlobalOptions& global, const RunMap& map, MapNeed nee
   const int step = findStep(run, map);
   if (keeps_volume) {
     loaded.volume = TsdfVolume(run.header().volume);
-    run.advanceVolume(loaded.volume, 0, step);
+    run.moveVolume(loaded.volume, 0, step);
   }
   if (keeps_octree && need != MapNeed::Tsdf) {
     loaded.octree = emptyOctree(run.header());
-    run.advanceOctree(*loaded.octree, 0, step);
+    run.moveOctree(*loaded.octree, 0, step);
   }
   loaded.step = step;
   for (const int earlier : run.steps())
