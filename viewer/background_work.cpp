@@ -127,10 +127,8 @@ void BackgroundWork::State::forget(const std::string& name) {
   if (running && running->progress.name == name) running->stop.request_stop();
 }
 
-BackgroundWork::BackgroundWork(std::function<void()> wake, Failure failed)
-    : state_(std::make_unique<State>()) {
+BackgroundWork::BackgroundWork(std::function<void()> wake) : state_(std::make_unique<State>()) {
   state_->wake = std::move(wake);
-  state_->failed = std::move(failed);
   state_->worker = std::jthread([state = state_.get()](std::stop_token quit) { state->work(quit); });
 }
 
@@ -141,6 +139,10 @@ BackgroundWork::~BackgroundWork() {
     if (state_->running) state_->running->stop.request_stop();
   }
   state_->worker.join();
+}
+
+void BackgroundWork::onFailure(Failure failed) {
+  state_->failed = std::move(failed);
 }
 
 void BackgroundWork::start(std::string name, Job job) {

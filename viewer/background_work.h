@@ -29,13 +29,15 @@ class BackgroundWork {
   using Failure = std::function<void(const std::string& name, const std::string& message)>;
 
   /// \param wake called from the worker, outside all locks, when there is something to poll, and at most ten
-  /// times a second while a job reports progress; may be empty. \param failed told in poll() of exceptions
-  /// from jobs and their finishes; may be empty.
-  explicit BackgroundWork(std::function<void()> wake, Failure failed = {});
+  /// times a second while a job reports progress; may be empty.
+  explicit BackgroundWork(std::function<void()> wake);
   /// Cancels everything and waits for the running job to notice.
   ~BackgroundWork();
   BackgroundWork(const BackgroundWork&) = delete;
   BackgroundWork& operator=(const BackgroundWork&) = delete;
+
+  /// Who is told, in poll(), of exceptions from jobs and their finishes.
+  void onFailure(Failure failed);
 
   /// The newest job of a name replaces one that waits, runs or was not polled yet under it, which is
   /// cancelled.

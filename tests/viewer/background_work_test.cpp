@@ -137,7 +137,8 @@ TEST(BackgroundWork, AFinishMayCancelOneThatComesAfterItAndStartMore) {
 
 TEST(BackgroundWork, ExceptionsOfJobsAndFinishesArriveAsFailures) {
   std::vector<std::string> failures;
-  BackgroundWork work({}, [&](const std::string& name, const std::string& message) {
+  BackgroundWork work({});
+  work.onFailure([&](const std::string& name, const std::string& message) {
     failures.push_back(name + ": " + message);
   });
   work.start("a",
@@ -223,8 +224,7 @@ TEST(BackgroundWork, KeepsItsPromisesWhateverIsInterleaved) {
     }
   }
   settle(work);
-  for (int n = 0; n < kNames; ++n)
-    EXPECT_TRUE(newest[n] == 0 || arrived[n] == newest[n]) << n;
+  for (int n = 0; n < kNames; ++n) EXPECT_TRUE(newest[n] == 0 || arrived[n] == newest[n]) << n;
   EXPECT_GT(wakes, 0);
 }
 
