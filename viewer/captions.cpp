@@ -5,7 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <map>
+
+#include "viewer/view_words.h"
 
 namespace vantage {
 namespace {
@@ -17,45 +18,8 @@ std::string format(const char* pattern, Values... values) {
   return text.data();
 }
 
-std::string plural(std::uint64_t count, const std::string& noun) {
-  return grouped(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
 std::string percent(double share) {
   return format(share > 0.0 && share < 0.095 ? "%.1f %%" : "%.0f %%", 100.0 * share);
-}
-
-/// How a search is called in a sentence, by its place in the order as the pictures number it: "no. 1 (label
-/// 7, saliency 0.51)".
-std::string nameOf(const StepRecord& record, std::size_t search) {
-  const SegmentSearch& segment = record.search->segments[search];
-  const std::string number = "no. " + std::to_string(search + 1);
-  if (segment.segment < 0 || !record.saliency ||
-      segment.segment >= static_cast<int>(record.saliency->segments.size()))
-    return number + " (contour points without a segment)";
-  const std::string label = std::to_string(record.saliency->segments[segment.segment].label);
-  return number + " (label " + label + format(", saliency %.2f)", segment.saliency);
-}
-
-/// "7 in collision, 5 out of reach" among the views that rank above the chosen one.
-std::string refusals(const SegmentSearch& search, double threshold) {
-  std::map<Reachability, std::uint64_t> counts;
-  for (const PoseScore& score : search.scores) {
-    if (score.gain <= threshold) break;
-    if (score.reachability != Reachability::Reachable && score.reachability != Reachability::NotChecked) {
-      ++counts[score.reachability];
-    }
-  }
-  static const std::map<Reachability, std::string> kWords = {
-      {Reachability::OutOfReach, "out of reach"}, {Reachability::InCollision, "in collision"},
-      {Reachability::NotConnected, "cut off"},    {Reachability::NoPath, "without a path"},
-      {Reachability::TimedOut, "out of time"},    {Reachability::NoFrame, "without a frame"}};
-  std::string text;
-  for (const auto& [verdict, count] : counts) {
-    const auto word = kWords.find(verdict);
-    if (word != kWords.end()) text += (text.empty() ? "" : ", ") + grouped(count) + " " + word->second;
-  }
-  return text;
 }
 
 /// " Path: 1.20 m, straight." of a chosen view that a path leads to.
@@ -166,7 +130,7 @@ std::string segmentFigures(const SceneFrame& frame, const LayerStyle&) {
   const std::size_t shown = std::min<std::size_t>(searches.size(), 4);
   for (std::size_t i = 0; i < shown; ++i) {
     if (i > 0) text += "; ";
-    text += nameOf(record, i) + " with " + plural(searches[i].poses_generated, "pose");
+    text += searchName(record, i) + " with " + plural(searches[i].poses_generated, "pose");
   }
   return text + (searches.size() > shown ? "; ..." : ".");
 }
@@ -192,7 +156,7 @@ std::string viewFigures(const SceneFrame& frame, const LayerStyle& style) {
   if (plannerOf(frame) == "standard") {
     text = plural(search.counts.poses_scored, "view") + " scored over the whole workspace. ";
   } else if (chosen.search < search.segments.size()) {
-    text += (text.empty() ? "Segment tried first: " : "then ") + nameOf(record, chosen.search) + ". ";
+    text += (text.empty() ? "Segment tried first: " : "then ") + searchName(record, chosen.search) + ". ";
   }
   text += "View " + std::to_string(chosen.id) + " gains " + grouped(static_cast<std::uint64_t>(chosen.gain)) +
           " rays (" + plural(chosen.gain_voxels, "voxel") + "), above " + limit + ".";

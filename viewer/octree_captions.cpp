@@ -1,37 +1,15 @@
 // Key figures of the hierarchical planner and its octree.
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
 
 #include "viewer/captions.h"
 #include "viewer/view_trace.h"
+#include "viewer/view_words.h"
 
 namespace vantage {
 namespace {
 
 constexpr const char* kNoOctree =
     "This product does not exist: the step was planned on contours in the TSDF, not by rays in an octree.";
-
-std::string rounded(double value, int digits) {
-  std::array<char, 64> text;
-  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
-  return text.data();
-}
-
-std::string fixed(double value) {
-  std::array<char, 64> text;
-  std::snprintf(text.data(), text.size(), "%.2f", value);
-  return text.data();
-}
-
-std::string whole(double value) {
-  return grouped(static_cast<std::uint64_t>(std::llround(std::max(0.0, value))));
-}
-
-std::string unitOf(const SceneFrame& frame) {
-  return frame.header.octree && frame.header.octree->planner.count == GainCount::Voxels ? " voxels" : " rays";
-}
 
 /// "Of 320 views 140 fell out by position, 33 by registration, 2 were taken before."
 std::string fallenText(const UtilitySearch& search) {
@@ -69,7 +47,7 @@ std::string whyNone(const UtilitySearch& search) {
 
 std::string noneChosen(const SceneFrame& frame, const UtilitySearch& search) {
   const double stop = frame.header.octree ? frame.header.octree->planner.stop_gain : 0.0;
-  const std::string unit = unitOf(frame), fallen = fallenText(search);
+  const std::string unit = " " + countUnit(frame), fallen = fallenText(search);
   const SearchEnd end = endOf(search, stop);
   const std::string none = "No view was chosen: ";
   if (end == SearchEnd::NoSurvivor) return none + "none is left. " + fallen;
@@ -92,7 +70,7 @@ std::string utilityFigures(const SceneFrame& frame, const LayerStyle&) {
   const UtilitySearch& search = *frame.record.utilities;
   const ViewUtility* view = chosenUtility(search);
   if (!view) return noneChosen(frame, search);
-  const std::string unit = unitOf(frame);
+  const std::string unit = " " + countUnit(frame);
   std::string text = "View " + std::to_string(view->id) + ": " + whole(view->unknown) + " unknown and " +
                      whole(view->occupied) + " known" + unit + " in the object's box; surface factor " +
                      rounded(view->surface, 3) + " (seen" + unit + " per unknown voxel) × distance factor " +

@@ -1,0 +1,193 @@
+#include "viewer/candidate_table.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace vantage {
+namespace {
+
+constexpr CandidateColumnText kRank{CandidateColumn::Rank, "rank", "#",
+                                    "Place in the order in which the views are tried", false};
+constexpr CandidateColumnText kChange{CandidateColumn::Change, "change", "±",
+                                      "Places won or lost against the recorded decision"};
+constexpr CandidateColumnText kView{CandidateColumn::View, "view", "view", "Number of the candidate", false};
+constexpr CandidateColumnText kUnknown{CandidateColumn::Unknown, "unknown", "unknown",
+                                       "Rays cast that end on unknown and count"};
+constexpr CandidateColumnText kOccupied{CandidateColumn::Occupied, "occupied", "occupied",
+                                        "Rays cast that end on known surface and count"};
+constexpr CandidateColumnText kDistance{CandidateColumn::Distance, "distance", "away, m",
+                                        "Straight distance from where the sensor is, metres", false};
+constexpr CandidateColumnText kVerdict{CandidateColumn::Verdict, "verdict", "verdict",
+                                       "Chosen, ranked lower, or why it fell out", false};
+
+/// The row's value has no place among the others of its column.
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// Places won, lost ones negative; new ones above all that moved, gone ones below.
+double sortedChange(const RankChange& change) {
+  constexpr double kBeyond = 1e12;
+  switch (change.kind) {
+    case RankChange::Kind::New:
+      return kBeyond;
+    case RankChange::Kind::Up:
+      return change.places;
+    case RankChange::Kind::Same:
+      return 0.0;
+    case RankChange::Kind::Down:
+      return -static_cast<double>(change.places);
+    case RankChange::Kind::Gone:
+      return -kBeyond;
+    case RankChange::Kind::None:
+      break;
+  }
+  return kNone;
+}
+
+double valueIn(const CandidateRow& row, CandidateColumn column) {
+  if (column == CandidateColumn::Segment) return row.group;
+  if (column == CandidateColumn::Saliency) return row.saliency;
+  if (column == CandidateColumn::Verdict) return static_cast<double>(row.verdict);
+  if (row.pending()) return kNone;
+  switch (column) {
+    case CandidateColumn::Rank:
+      return row.rank ? *row.rank : kNone;
+    case CandidateColumn::Change:
+      return sortedChange(row.change);
+    case CandidateColumn::View:
+      return row.id;
+    case CandidateColumn::Unknown:
+      return row.unknown;
+    case CandidateColumn::Occupied:
+      return row.occupied;
+    case CandidateColumn::Surface:
+      return row.surface;
+    case CandidateColumn::DistanceFactor:
+      return row.distance_factor;
+    case CandidateColumn::Distance:
+      return row.distance_m;
+    default:
+      return row.score;
+  }
+}
+
+bool passes(const CandidateRow& row, const CandidateFilter& filter) {
+  if (filter.group && row.group != *filter.group) return false;
+  if (filter.ranked_only && !row.rank && !row.pending()) return false;
+  if (filter.text.empty()) return true;
+  return !row.pending() && std::to_string(row.id).find(filter.text) != std::string::npos;
+}
+
+template <class T>
+bool isSame(const std::weak_ptr<const T>& known, const std::shared_ptr<const T>& now) {
+  return !known.owner_before(now) && !now.owner_before(known);
+}
+
+}  // namespace
+
+const std::vector<CandidateColumnText>& candidateColumns(bool hierarchical) {
+  static const std::vector<CandidateColumnText> contour = {
+      kRank,
+      kChange,
+      kView,
+      {CandidateColumn::Gain, "gain", "gain", "Rays at full resolution that end on unknown and count"},
+      {CandidateColumn::Segment, "segment", "seg.", "Label of its segment; sorted as segments are tried",
+       false},
+      kVerdict,
+      {CandidateColumn::Saliency, "saliency", "saliency", "Of its segment: isolation × roundness"},
+      kUnknown,
+      kOccupied,
+      kDistance};
+  static const std::vector<CandidateColumnText> octree = {
+      kRank,
+      kChange,
+      kView,
+      {CandidateColumn::Utility, "utility", "utility", "Surface factor × distance factor (eq. 1)"},
+      kUnknown,
+      kVerdict,
+      {CandidateColumn::Surface, "surface", "surface", "Seen unknown per unknown voxel of the object's box"},
+      {CandidateColumn::DistanceFactor, "distance factor", "dist. f.",
+       "Distance factor: 1 where the sensor is, less the farther the way (eq. 5)"},
+      kOccupied,
+      kDistance};
+  return hierarchical ? octree : contour;
+}
+
+std::vector<std::uint32_t> listedRows(const std::vector<CandidateRow>& rows, const CandidateFilter& filter,
+                                      CandidateColumn column, bool descending) {
+  struct Entry {
+    double key;  ///< ascending; kNone never compares
+    int group;   ///< rows with a value, pending ones without, others without
+    std::uint32_t index;
+  };
+  std::vector<Entry> entries;
+  entries.reserve(rows.size());
+  for (std::uint32_t i = 0; i < rows.size(); ++i) {
+    if (!passes(rows[i], filter)) continue;
+    const double value = valueIn(rows[i], column);
+    const bool none = value != value;
+    entries.push_back({none ? 0.0 : descending ? -value : value, !none ? 0 : rows[i].pending() ? 1 : 2, i});
+  }
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    if (a.group != b.group) return a.group < b.group;
+    return a.key != b.key ? a.key < b.key : a.index < b.index;
+  });
+  std::vector<std::uint32_t> listed(entries.size());
+  std::ranges::transform(entries, listed.begin(), &Entry::index);
+  return listed;
+}
+
+void CandidateTable::show(const StepData& recorded, const StepData& shown) {
+  const bool same_recorded = isSame(recorded_, recorded.record) && isSame(recorded_header_, recorded.header);
+  if (same_recorded && isSame(shown_, shown.record) && isSame(shown_header_, shown.header)) return;
+  if (!same_recorded) {
+    recorded_rows_ = recorded.empty() ? std::vector<CandidateRow>() : candidateRows(recorded.frame());
+    filter_.group.reset();
+  }
+  recorded_ = recorded.record;
+  recorded_header_ = recorded.header;
+  shown_ = shown.record;
+  shown_header_ = shown.header;
+  rows_ = shown.empty() ? std::vector<CandidateRow>() : candidateRows(shown.frame());
+  if (!shown.empty()) hierarchical_ = shown.record->utilities != nullptr;
+  // Nothing is tried out, but segments that the run did not need may be scored by now: those places count
+  // too.
+  if (shown.header == recorded.header) recorded_rows_ = rows_;
+  if (!recorded.empty() && !shown.empty() && sameCandidates(recorded.frame(), shown.frame()))
+    compareRanks(rows_, recorded_rows_);
+  stale_ = true;
+  ++revision_;
+}
+
+void CandidateTable::sortBy(CandidateColumn column, bool descending) {
+  if (column == column_ && descending == descending_) return;
+  column_ = column;
+  descending_ = descending;
+  stale_ = true;
+}
+
+void CandidateTable::filter(const CandidateFilter& filter) {
+  if (filter == filter_) return;
+  filter_ = filter;
+  stale_ = true;
+}
+
+const std::vector<std::uint32_t>& CandidateTable::listed() {
+  if (stale_) listed_ = listedRows(rows_, filter_, column_, descending_);
+  stale_ = false;
+  return listed_;
+}
+
+const CandidateRow* CandidateTable::find(std::uint32_t id) const {
+  const auto found =
+      std::ranges::find_if(rows_, [&](const CandidateRow& r) { return !r.pending() && r.id == id; });
+  return found == rows_.end() ? nullptr : &*found;
+}
+
+std::optional<std::size_t> CandidateTable::placeOf(std::uint32_t id) {
+  const std::vector<std::uint32_t>& order = listed();
+  for (std::size_t i = 0; i < order.size(); ++i)
+    if (!rows_[order[i]].pending() && rows_[order[i]].id == id) return i;
+  return std::nullopt;
+}
+
+}  // namespace vantage

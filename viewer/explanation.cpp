@@ -1,0 +1,90 @@
+#include "viewer/explanation.h"
+
+#include <algorithm>
+
+#include "viewer/explanation_parts.h"
+
+namespace vantage {
+namespace {
+
+const CandidateRow* findRow(const std::vector<CandidateRow>& rows, std::uint32_t id) {
+  const auto found =
+      std::ranges::find_if(rows, [&](const CandidateRow& r) { return !r.pending() && r.id == id; });
+  return found == rows.end() ? nullptr : &*found;
+}
+
+/// The view that would have been taken had the chosen one not been there: the next one that was not refused.
+const CandidateRow* nextAfter(const std::vector<CandidateRow>& rows, const CandidateRow& chosen) {
+  const CandidateRow* next = nullptr;
+  for (const CandidateRow& row : rows) {
+    if (!row.rank || !chosen.rank || *row.rank <= *chosen.rank || isUnreachable(row.reachability)) continue;
+    if (!next || *row.rank < *next->rank) next = &row;
+  }
+  return next;
+}
+
+/// The group of contour points that a pose belongs to.
+std::optional<std::uint32_t> groupOf(const SceneFrame& frame, std::uint32_t id) {
+  if (!frame.record.search || !frame.record.positions) return std::nullopt;
+  const std::size_t position = id / std::max(1, frame.header.contour_config.views.rolls);
+  if (position >= frame.record.positions->size()) return std::nullopt;
+  const std::uint32_t point = (*frame.record.positions)[position].group;
+  const auto& groups = frame.record.search->segments;
+  for (std::uint32_t g = 0; g < groups.size(); ++g)
+    if (std::ranges::find(groups[g].contour_points, point) != groups[g].contour_points.end()) return g;
+  return std::nullopt;
+}
+
+}  // namespace
+
+Explanation explain(const SceneFrame& shown, std::uint32_t id) {
+  return explain(shown, candidateRows(shown), id);
+}
+
+Explanation explain(const SceneFrame& shown, const std::vector<CandidateRow>& rows, std::uint32_t id) {
+  const auto winner = std::ranges::find_if(rows, &CandidateRow::chosen);
+  ExplainedView view{.frame = shown,
+                     .id = id,
+                     .row = findRow(rows, id),
+                     .chosen = winner == rows.end() ? nullptr : &*winner,
+                     .other = nullptr,
+                     .group = groupOf(shown, id)};
+  Explanation result{.id = id};
+  if (!view.row && !view.group) {
+    result.sentence = rows.empty() ? "No views were evaluated in this step."
+                                   : "View " + std::to_string(id) + " is no candidate of this step.";
+    return result;
+  }
+  result.is_winner = view.row && view.row == view.chosen;
+  view.other = result.is_winner ? nextAfter(rows, *view.chosen) : view.chosen;
+  if (view.row) result.row = *view.row;
+  if (view.other) result.other = view.other->id;
+  const bool contour = shown.record.search && !shown.record.utilities;
+  result.sentence = contour ? contourReason(view) : utilityReason(view);
+  result.factors = contour ? contourFactors(view) : utilityFactors(view);
+  return result;
+}
+
+std::uint64_t countedVoxels(const SceneFrame& shown, const CandidateRow& row) {
+  if (row.pending()) return 0;
+  if (const UtilitySearch* search = shown.record.utilities.get()) {
+    const auto view = std::ranges::find(search->views, row.id, &ViewUtility::id);
+    if (view == search->views.end() || !onOctree(shown)) return 0;
+    HierarchicalQuery query;
+    query.bounds = shown.header.octree->object_box;
+    query.distinct_voxels = true;
+    return castUniformRays(shown.pyramid->finest(), *shown.tree, view->T_world_camera, query).unknown_voxels;
+  }
+  const ViewSearch* search = shown.record.search.get();
+  if (!search || row.group >= search->segments.size() || !groupOf(shown, row.id)) return 0;
+  VisibilityQuery region;
+  region.outside = shown.header.contour_config.gain.outside;
+  region.distinct_voxels = true;
+  if (const Sphere& sphere = search->segments[row.group].sphere; sphere.radius > 0.0)
+    region.sphere = sphere;
+  else
+    region.bounds = shown.header.workspace;  // the baseline
+  return castUniform(shown.states, shown.header.camera, candidatePose(shown, row.id), region).unknown_voxels;
+}
+
+}  // namespace vantage
