@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/text_file.h"
 #include "viewer/captions.h"
 #include "viewer/inspector_commands.h"
 #include "viewer/inspector_model.h"
@@ -366,7 +367,7 @@ void Inspector::State::screenshot() {
 
 void Inspector::State::writeConfig(const std::filesystem::path& file) {
   try {
-    writeTextFile(file, model.whatIf().toml());
+    saveFile(file, model.whatIf().edits().toml());
     model.say(Notice::Level::Info, "parameters written to " + file.string());
   } catch (const std::exception& e) {
     model.say(Notice::Level::Error, e.what());

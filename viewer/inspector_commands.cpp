@@ -141,12 +141,12 @@ void InspectorCommands::addLayers() {
 
 void InspectorCommands::addWhatIf() {
   add("what-if.undo", "What-if", "Undo", {keyOf('Z'), true}, [this] { model_.whatIf().undo(); }).enabled =
-      [this] { return model_.whatIf().canUndo(); };
+      [this] { return model_.whatIf().edits().canUndo(); };
   add("what-if.redo", "What-if", "Redo", {keyOf('Y'), true}, [this] { model_.whatIf().redo(); }).enabled =
-      [this] { return model_.whatIf().canRedo(); };
+      [this] { return model_.whatIf().edits().canRedo(); };
   add("what-if.reset", "What-if", "Reset all parameters", {keyOf('R'), true}, [this] {
     model_.whatIf().resetAll();
-  }).enabled = [this] { return model_.whatIf().anyChanged(); };
+  }).enabled = [this] { return model_.whatIf().edits().anyChanged(); };
   add("what-if.cancel", "What-if", "Cancel what runs in the background", {Key::Period, true},
       [this] { model_.whatIf().cancel(); });
   add("selection.clear", "What-if", "Select the chosen view", {keyOf('C')},

@@ -14,11 +14,6 @@ constexpr std::size_t kMostNotices = 4;
 // Names of background work: the newest of a name replaces the one before.
 const std::string kOpen = "open", kLoad = "load step", kPrepare = "prepare", kFollow = "follow";
 
-PlannerKind plannerOfStep(const StepData& data) {
-  const std::string& name = data.record->planner.empty() ? data.header->planner : data.record->planner;
-  return name.empty() ? PlannerKind::Contour : plannersFromText(name).front();
-}
-
 }  // namespace
 
 InspectorModel::InspectorModel(std::function<void()> wake) : what_if_(work_), work_(std::move(wake)) {
@@ -147,10 +142,11 @@ void InspectorModel::follow() {
     if (news.grown || news.replaced || news.finished) steps = session->summaries();
     return BackgroundWork::Finish([this, news, steps = std::move(steps)]() mutable {
       const std::string name = file_.filename().string();
-      if (news.gone) {
+      if (news.gone || !news.problem.empty()) {
         finished_ = true;
         say(Notice::Level::Warning,
-            name + " is gone or can no longer be read; what is loaded stays, other steps may be lost");
+            (news.gone ? name + " is gone" : news.problem) +
+                                       "; what is loaded stays, other steps cannot be shown");
         return;
       }
       if (news.replaced) {

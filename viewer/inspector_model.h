@@ -102,9 +102,9 @@ class InspectorModel {
   StepData recorded_;
   std::uint64_t revision_ = 0;
   double since_follow_s_ = 0.0;
-  WhatIf what_if_;
   std::vector<Notice> notices_;
-  BackgroundWork work_;  ///< last: its jobs end before what they refer to
+  BackgroundWork work_;  ///< its destructor waits for the job that runs; jobs own what they work on
+  WhatIf what_if_;
 };
 
 }  // namespace vantage

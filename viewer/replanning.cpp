@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "core/exploration/plan_view.h"
 #include "core/perception/saliency.h"
 #include "core/planners/rank_again.h"
 

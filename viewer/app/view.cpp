@@ -26,13 +26,13 @@ struct ViewOptions {
 };
 
 /// A picture of the view with caption and legend, as snapshots have it.
-RgbImage pictureOf(const SceneFrame& frame, const ViewSettings& view, const Eye& eye, GlContext& context,
-                   int width, int height) {
+RgbImage pictureOf(const SceneFrame& frame, const ViewSettings& view, GlContext& context, int width,
+                   int height) {
   Scene scene;
   scene.setFrame(frame);
   OffscreenRenderer renderer(context);
-  return drawView(scene, renderer, {"As seen in the inspector", stepLine(frame), viewFigures(frame, view.style)},
-                  view, eye, width, height);
+  const Recipe recipe{"inspector", "As seen in the inspector", "", view, viewFigures};
+  return drawRecipe(scene, renderer, recipe, frame, width, height);
 }
 
 std::vector<std::filesystem::path> existing(const std::vector<std::string>& files) {
@@ -105,12 +105,12 @@ void addView(CLI::App& app, const GlobalOptions& global, Action& action) {
       ->type_name("FILE.png");
   command->add_option("--size", options->size, "Of that picture, pixels; default: 1280x800")
       ->type_name("WxH");
-  command
-      ->add_option("--seconds", options->seconds, "Close the window by itself after this time; 0 = never")
+  command->add_option("--seconds", options->seconds, "Close the window by itself after this time; 0 = never")
       ->check(CLI::Range(0.0, 1e6))
       ->type_name("S");
   command->footer("Example: vantage view tabletop.vantage   (F1 in the window lists all keys)");
-  command->callback([&global, &action, options] { action = [&global, options] { return view(global, *options); }; });
+  command->callback(
+      [&global, &action, options] { action = [&global, options] { return view(global, *options); }; });
 }
 
 }  // namespace vantage::app
