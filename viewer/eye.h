@@ -10,15 +10,6 @@
 
 namespace vantage {
 
-/// Where a scene is looked at from: world, metres.
-struct Eye {
-  Eigen::Vector3d position = Eigen::Vector3d(1.0, -1.0, 1.0);
-  Eigen::Vector3d focus = Eigen::Vector3d::Zero();  ///< what it looks at and turns about
-  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();    ///< upward in the picture
-  double fov_rad = CameraView{}.fov_rad;            ///< vertical aperture
-  double distance() const { return (focus - position).norm(); }
-};
-
 /// Eye of a view for points that must all be seen, in a picture of the given shape. \throws
 /// std::invalid_argument for a view out of range or no points.
 Eye fitEye(const CameraView& view, std::span<const Eigen::Vector3d> points, double width_to_height);

@@ -80,6 +80,12 @@ std::vector<Eigen::Vector3d> mustSee(const SceneFrame& frame, const CameraView& 
   return points;
 }
 
+Eye eyeFor(const SceneFrame& frame, const CameraView& camera, const std::vector<const LayerContent*>& shown,
+           double width_to_height) {
+  camera.validate();
+  return camera.eye ? *camera.eye : fitEye(camera, mustSee(frame, camera, shown), width_to_height);
+}
+
 void moveCamera(vtkRenderer& renderer, const Eye& eye) {
   vtkCamera* camera = renderer.GetActiveCamera();
   camera->SetPosition(eye.position.data());
@@ -243,8 +249,8 @@ void Scene::show(const ViewSettings& settings, const Caption& caption, PageStyle
     drawLegend(*state_->page, column, shownNotes(), unit);
   }
   state_->page_view->SetViewport(0.0, 0.0, view_width / width, view_height / height);
-  const auto points = mustSee(*state_->frame, settings.camera, state_->contents(settings.layers));
-  moveCamera(*state_->page_view, fitEye(settings.camera, points, view_width / view_height));
+  moveCamera(*state_->page_view, eyeFor(*state_->frame, settings.camera, state_->contents(settings.layers),
+                                        view_width / view_height));
 }
 
 std::vector<vtkRenderer*> Scene::renderers() const {
@@ -287,7 +293,7 @@ void Scene::setEye(const Eye& eye) {
 
 void Scene::placeEye(const CameraView& camera, double width_to_height) {
   state_->requireFrame("placeEye");
-  setEye(fitEye(camera, mustSee(*state_->frame, camera, state_->contents(state_->shown)), width_to_height));
+  setEye(eyeFor(*state_->frame, camera, state_->contents(state_->shown), width_to_height));
 }
 
 vtkRenderer* Scene::inset(const Eye& eye, const LayerSet& layers) {
@@ -304,6 +310,11 @@ vtkRenderer* Scene::inset(const Eye& eye, const LayerSet& layers) {
 const LayerContent* Scene::content(Layer layer) const {
   const auto& built = state_->built[static_cast<std::size_t>(layer)];
   return built ? &built->content : nullptr;
+}
+
+bool Scene::hasContent(Layer layer) const {
+  const LayerContent* built = content(layer);
+  return built && (!built->props.empty() || built->inset);
 }
 
 std::vector<const LayerNotes*> Scene::shownNotes() const {

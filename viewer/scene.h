@@ -73,6 +73,8 @@ class Scene {
   /// What a layer adds, as built for the last show() or arrange() that had it; null if it was not shown
   /// since.
   const LayerContent* content(Layer layer) const;
+  /// The layer was built and there is something of it in this frame.
+  bool hasContent(Layer layer) const;
   /// Legend entries, scales and insets of the layers that were shown last, in drawing order.
   std::vector<const LayerNotes*> shownNotes() const;
   /// How often a layer was built so far.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/exploration/step_record.h"
@@ -18,9 +19,9 @@ struct SceneFrame {
   /// The octree's nodes at all levels, null if the step was not planned on it; `states` is its finest level.
   const StatePyramid* pyramid = nullptr;
   const RayTree* tree = nullptr;  ///< rays of the hierarchical planner; null if there are none
-  /// Another number for every content of `states` and `pyramid`: layers of the map that were built for the
-  /// same number are kept when the next frame comes. 0 = not known, nothing of the map is kept.
-  std::uint64_t map_version = 0;
+  /// Stands for the content of `states` and `pyramid`, which is never changed under it: layers of the map are
+  /// kept when the next frame has the same. Null = not known, nothing of the map is kept.
+  std::shared_ptr<const void> map = nullptr;
 };
 
 /// Name of the planner of a step.

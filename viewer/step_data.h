@@ -20,7 +20,9 @@ struct StepData {
   /// Nothing is shown; frame() must not be called.
   bool empty() const { return !header || !record || !states; }
   /// Refers to this data, which must outlive the frame's use; any copy of it keeps it alive. \pre !empty()
-  SceneFrame frame() const { return {*header, *record, *states, &header->truth, pyramid.get(), tree.get()}; }
+  SceneFrame frame() const {
+    return {*header, *record, *states, &header->truth, pyramid.get(), tree.get(), states};
+  }
 };
 
 }  // namespace vantage

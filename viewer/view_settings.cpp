@@ -74,6 +74,7 @@ void CameraView::validate() const {
   requireInRange("zoom", zoom, 0.01, 100.0);
   if (front_m) requireInRange("front_m", *front_m, 0.0, 10.0);
   if (height_share) requireInRange("height_share", *height_share, 0.01, 1.0);
+  if (eye) requireInRange("eye.fov_rad", eye->fov_rad, 0.01, 2.5);
 }
 
 void LayerLook::validate() const {

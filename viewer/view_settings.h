@@ -106,12 +106,24 @@ inline ColorMap mapOf(const LayerStyle& style, ColorMap own = ColorMap::Viridis)
   return style.color_map.value_or(own);
 }
 
+inline constexpr double kUsualFov_rad = 0.4363323129985824;  ///< 25 deg
+
+/// Where a scene is looked at from: world, metres.
+struct Eye {
+  Eigen::Vector3d position = Eigen::Vector3d(1.0, -1.0, 1.0);
+  Eigen::Vector3d focus = Eigen::Vector3d::Zero();  ///< what it looks at and turns about
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();    ///< upward in the picture
+  double fov_rad = kUsualFov_rad;                   ///< vertical aperture
+  bool operator==(const Eye&) const = default;
+  double distance() const { return (focus - position).norm(); }
+};
+
 /// Where the scene is looked at from; the same for every step, so that pictures can be compared. Sensors,
 /// views and paths that are shown and leave the workspace make the picture wider.
 struct CameraView {
   double azimuth_rad = -1.0297442586766543;   ///< of the eye from +x about z; -59 deg, the robot is at -y
   double elevation_rad = 0.6806784082777885;  ///< above the horizon; 39 deg
-  double fov_rad = 0.4363323129985824;        ///< vertical aperture; 25 deg
+  double fov_rad = kUsualFov_rad;             ///< vertical aperture
   bool object = false;  ///< the object's box must be seen instead of the workspace, if the step has one
   double zoom = 1.0;    ///< 1: what must be seen fills the picture
   /// Space before the workspace (-y) that must be seen too, metres, 0..10; empty = 0.2 in a known scene, else
@@ -120,6 +132,7 @@ struct CameraView {
   /// Share of the workspace's height that must be seen, (0, 1]; empty = 0.8 in a known scene, whose upper
   /// part is empty, else all of it.
   std::optional<double> height_share;
+  std::optional<Eye> eye;  ///< exactly this one; then nothing else of the view counts
   bool operator==(const CameraView&) const = default;
   /// \throws std::invalid_argument naming field, value and range.
   void validate() const;

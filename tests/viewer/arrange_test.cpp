@@ -22,9 +22,14 @@ const SyntheticRun& sharedRun() {
   return run;
 }
 
-SceneFrame frameOf(const SyntheticRun& run, std::uint64_t map_version = 1) {
+std::shared_ptr<const void> someMap() {
+  static const auto map = std::make_shared<int>(1);
+  return map;
+}
+
+SceneFrame frameOf(const SyntheticRun& run, std::shared_ptr<const void> map = someMap()) {
   SceneFrame frame = run.frame();
-  frame.map_version = map_version;
+  frame.map = std::move(map);
   return frame;
 }
 
@@ -52,8 +57,9 @@ int differentPixels(const RgbImage& a, const RgbImage& b) {
   return count;
 }
 
-const LayerSet kMany = {Layer::Workspace,  Layer::Occupied,    Layer::Unknown,    Layer::Segments,
-                        Layer::Candidates, Layer::RankedViews, Layer::ChosenView, Layer::ContourPoints};
+const LayerSet kMany = {Layer::Workspace,   Layer::Occupied,   Layer::Unknown,
+                        Layer::Segments,    Layer::Truth,      Layer::Candidates,
+                        Layer::RankedViews, Layer::ChosenView, Layer::ContourPoints};
 
 TEST(Arrange, ReRankedRecordRebuildsOnlyWhatDependsOnIt) {
   SyntheticRun run = sharedRun();
@@ -63,12 +69,13 @@ TEST(Arrange, ReRankedRecordRebuildsOnlyWhatDependsOnIt) {
   for (const Layer layer : {Layer::Occupied, Layer::Segments, Layer::RankedViews})
     EXPECT_EQ(scene.timesBuilt(layer), 1) << layerName(layer);
 
-  SyntheticRun other = run;
+  SyntheticRun other = run;  // with a header of its own, as whoever tries other parameters has
   other.record.saliency = std::make_shared<Saliency>(*run.record.saliency);
   scene.setFrame(frameOf(other));
   scene.arrange(viewOf(kMany));
   EXPECT_EQ(scene.timesBuilt(Layer::Segments), 2);
-  for (const Layer layer : {Layer::Occupied, Layer::Unknown, Layer::RankedViews, Layer::ContourPoints})
+  for (const Layer layer :
+       {Layer::Occupied, Layer::Unknown, Layer::Truth, Layer::RankedViews, Layer::ContourPoints})
     EXPECT_EQ(scene.timesBuilt(layer), 1) << layerName(layer);
 
   other.header.contour_config.gain.gain_threshold += 1.0;
@@ -79,16 +86,16 @@ TEST(Arrange, ReRankedRecordRebuildsOnlyWhatDependsOnIt) {
   EXPECT_EQ(scene.timesBuilt(Layer::Occupied), 1);
 }
 
-TEST(Arrange, AnotherMapVersionOrAnUnknownOneRebuildsTheMap) {
+TEST(Arrange, AnotherMapOrAnUnknownOneRebuildsItsLayers) {
   Scene scene;
-  scene.setFrame(frameOf(sharedRun(), 1));
+  scene.setFrame(frameOf(sharedRun()));
   scene.arrange(viewOf(kMany));
-  scene.setFrame(frameOf(sharedRun(), 2));
+  scene.setFrame(frameOf(sharedRun(), std::make_shared<int>(2)));
   scene.arrange(viewOf(kMany));
   EXPECT_EQ(scene.timesBuilt(Layer::Occupied), 2);
   EXPECT_EQ(scene.timesBuilt(Layer::Segments), 1);
   for (int i = 0; i < 2; ++i) {
-    scene.setFrame(frameOf(sharedRun(), 0));
+    scene.setFrame(frameOf(sharedRun(), nullptr));
     scene.arrange(viewOf(kMany));
   }
   EXPECT_EQ(scene.timesBuilt(Layer::Occupied), 4);
@@ -157,7 +164,7 @@ TEST(Arrange, EyeStaysWhereTheUserPutIt) {
   scene.arrange(viewOf(kMany));
   const Eye mine{{1, 2, 3}, {0, 0.1, 0.2}, Eigen::Vector3d::UnitZ(), 0.4};
   scene.setEye(mine);
-  scene.setFrame(frameOf(sharedRun(), 5));
+  scene.setFrame(frameOf(sharedRun(), std::make_shared<int>(5)));
   scene.arrange(viewOf({Layer::Occupied}));
   EXPECT_EQ(scene.eye().position, mine.position);
   EXPECT_EQ(scene.eye().focus, mine.focus);

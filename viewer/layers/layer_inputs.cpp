@@ -2,6 +2,7 @@
 #include "viewer/layers/layer_inputs.h"
 
 #include <array>
+#include <bit>
 
 namespace vantage {
 namespace {
@@ -96,6 +97,19 @@ constexpr Reads readsOf(Layer layer) {
   return {~0u, ~0u};
 }
 
+/// Sizes and some hundred values of a mesh in one number; headers are copied, so its address says nothing.
+std::uint64_t fingerprint(const TriangleMesh* mesh) {
+  if (!mesh) return 0;
+  std::uint64_t hash = 14695981039346656037u;  // FNV-1a
+  const auto add = [&](std::uint32_t value) { hash = (hash ^ value) * 1099511628211u; };
+  add(static_cast<std::uint32_t>(mesh->triangles.size()));
+  add(static_cast<std::uint32_t>(mesh->colors.size()));
+  const std::size_t stride = mesh->vertices.size() / 256 + 1;
+  for (std::size_t i = 0; i < mesh->vertices.size(); i += stride)
+    for (int axis = 0; axis < 3; ++axis) add(std::bit_cast<std::uint32_t>(mesh->vertices[i][axis]));
+  return hash;
+}
+
 bool sameBox(const Box& a, const Box& b) {
   return (a.isEmpty() && b.isEmpty()) || (a.min() == b.min() && a.max() == b.max());
 }
@@ -114,8 +128,8 @@ bool sameRun(const LayerInputs& a, const LayerInputs& b) {
 }  // namespace
 
 LayerInputs::LayerInputs(const SceneFrame& frame)
-    : map_version(frame.map_version),
-      truth(frame.truth),
+    : map(frame.map),
+      truth(fingerprint(frame.truth)),
       step(frame.record.step),
       scan_poses(frame.record.scan.size()),
       depth(frame.record.depth),
@@ -140,8 +154,7 @@ LayerInputs::LayerInputs(const SceneFrame& frame)
 bool stillStands(Layer layer, const LayerInputs& a, const LayerInputs& b) {
   const unsigned reads = readsOf(layer).products;
   const auto same = [&](unsigned product, bool equal) { return !(reads & product) || equal; };
-  return sameRun(a, b) && same(kMap, a.map_version != 0 && a.map_version == b.map_version) &&
-         same(kTruth, a.truth == b.truth) &&
+  return sameRun(a, b) && same(kMap, a.map && a.map == b.map) && same(kTruth, a.truth == b.truth) &&
          same(kScan, a.depth == b.depth && a.step == b.step && a.scan_poses == b.scan_poses) &&
          same(kContours, a.contours == b.contours) && same(kSurface, a.surface == b.surface) &&
          same(kLabels, a.labels == b.labels) && same(kSaliency, a.saliency == b.saliency) &&

@@ -15,8 +15,8 @@ namespace vantage {
 struct LayerInputs {
   explicit LayerInputs(const SceneFrame& frame);
 
-  std::uint64_t map_version;
-  const TriangleMesh* truth;
+  std::shared_ptr<const void> map;
+  std::uint64_t truth;  ///< tells one true scene from another
   int step;
   std::size_t scan_poses;
   std::shared_ptr<const void> depth, contours, surface, labels, saliency, positions, search, utilities;
