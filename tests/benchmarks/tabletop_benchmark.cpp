@@ -1,11 +1,8 @@
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
-#include "core/exploration/explorer.h"
 #include "core/exploration/plan_view.h"
-#include "hardware/simulated_depth_camera.h"
-#include "io/config_file.h"
-#include "io/scene_file.h"
+#include "tests/benchmarks/tabletop_map.h"
 
 // One next best view on the embedded scene `tabletop` after its initial scan, from contours to the chosen
 // pose: lines 1 to 17 of Algorithm 1, the sensor's fit checked and paths left out. Contour planner and
@@ -14,36 +11,8 @@
 namespace vantage {
 namespace {
 
-/// The map after the initial scan.
-struct Tabletop {
-  Settings settings;
-  TsdfVolume volume;
-  StateGrid states;
-  CollisionGrid collision;
-
-  Tabletop() {
-    const SceneFile scene = loadScene("tabletop");
-    applyToml(settings, scene.text, scene.source_path, sceneGeometryKeys());
-    const ExplorationConfig& config = settings.exploration;
-    SimulatedDepthCamera camera(scene, {settings.camera, settings.sensor, config.seed});
-    volume = TsdfVolume(config.volume);
-    std::uint64_t index = 0;
-    for (const Pose& pose : initialScanPoses(config.scan)) {
-      clearSphere(volume, pose.translation(), config.scan.clear_radius_m);
-      fuseDepth(volume, camera.capture(pose, index++)->depth, camera.model(), pose, config.fusion);
-    }
-    states = makeStateGrid(volume);
-    collision = CollisionGrid(states, settings.free_flyer.cell_m, settings.free_flyer.body_radius_m);
-  }
-};
-
-const Tabletop& tabletop() {
-  static const Tabletop scene;
-  return scene;
-}
-
 void planOneView(benchmark::State& state) {
-  const Tabletop& scene = tabletop();
+  const benchmarks::TabletopMap& scene = benchmarks::tabletopMap();
   const bool contour = state.range(0) == 1;
   const int threads = static_cast<int>(state.range(1));
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,

@@ -24,14 +24,23 @@ MotionPlan lowViewsOnly(const Pose& pose) {
   return plan;
 }
 
+PlanViewInput inputFor(const test::SyntheticRun& r, const ContourPlannerConfig& config) {
+  return {r.volume, r.states, r.header.camera, r.header.workspace, config};
+}
+
+/// Planned with few rays.
 const test::SyntheticRun& run() {
-  static const test::SyntheticRun kRun = test::makeSyntheticRun();
+  static const test::SyntheticRun kRun = [] {
+    test::SyntheticRun r = test::makeSyntheticRun();
+    r.header.contour_config.gain.reduction = 4;
+    planView(r.record, inputFor(r, r.header.contour_config), lowViewsOnly, [](Stage) {}, {});
+    return r;
+  }();
   return kRun;
 }
 
 PlanViewInput inputFor(const ContourPlannerConfig& config) {
-  const test::SyntheticRun& r = run();
-  return {r.volume, r.states, r.header.camera, r.header.workspace, config};
+  return inputFor(run(), config);
 }
 
 /// The stages that were published.
@@ -101,10 +110,10 @@ const std::vector<Change>& changes() {
        {Stage::Segmentation, Stage::Saliency, Stage::Generation, Stage::Evaluation}},
       {"distance cap", [](C& c) { c.saliency.max_distance_m = 0.1; }, {Stage::Saliency, Stage::Evaluation}},
       {"tilt", [](C& c) { c.views.tilt_rad = 0.2; }, {Stage::Generation, Stage::Evaluation}},
-      {"reduction", [](C& c) { c.gain.reduction = 2; }, {Stage::Evaluation}},
+      {"reduction", [](C& c) { c.gain.reduction = 3; }, {Stage::Evaluation}},
       {"reduction and B_th",
        [](C& c) {
-         c.gain.reduction = 2;
+         c.gain.reduction = 3;
          c.saliency.isolation_distance_m = 0.05;
        },
        {Stage::Evaluation}},
