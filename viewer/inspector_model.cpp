@@ -16,7 +16,7 @@ const std::string kOpen = "open", kLoad = "load step", kPrepare = "prepare", kFo
 
 }  // namespace
 
-InspectorModel::InspectorModel(std::function<void()> wake) : what_if_(work_), work_(std::move(wake)) {
+InspectorModel::InspectorModel(std::function<void()> wake) : work_(std::move(wake)), what_if_(work_) {
   work_.onFailure([this](const std::string& name, const std::string& message) {
     if (name == kOpen) opening_ = false;
     say(Notice::Level::Error, message);
