@@ -161,6 +161,7 @@ void checkIndices(const StepRecord& r) {
   const ContourChosenView& chosen = *r.search->chosen;
   require(chosen.search < r.search->segments.size(), "a chosen view without its segment");
   require(chosen.rank < r.search->segments[chosen.search].scores.size(), "a chosen view without its score");
+  require(chosen.contour_point < points, "a chosen view without its contour point");
 }
 
 void checkDepth(const DepthFrame& frame) {

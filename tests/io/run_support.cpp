@@ -56,6 +56,7 @@ std::shared_ptr<ViewSearch> randomSearch(Randomizer& random, std::size_t points,
     for (PoseScore& p : s.scores) p.histogram = p.id % (s.histograms.size() + 1) - 1;
   }
   limit(search->chosen->search, search->segments.size());
+  limit(search->chosen->contour_point, points);
   limit(search->chosen->rank, search->segments[search->chosen->search].scores.size());
   return search;
 }
