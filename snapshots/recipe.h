@@ -62,6 +62,7 @@ const Recipe& recipeNamed(const std::string& name);
 ///     slice_axis = "y"                       # normal of the one slice: x, y or z
 ///     slice_at_m = 0.05                      # its place on that axis; default: middle of the workspace
 ///     slice_x_m = 0.1                        # another slice; also slice_y_m, slice_z_m
+///     slices = "xy"                          # which of them are shown
 ///     octree_level = 2                       # 0..8: nodes of 2^level voxels; default: where tracing starts
 ///     view_id = 17                           # whose rays are drawn; default: the chosen view
 ///     coarse_rays = 300                      # how many of them at most
@@ -78,6 +79,15 @@ const Recipe& recipeNamed(const std::string& name);
 ///     focus = "workspace"                    # what must be seen: workspace, or object (the object's box)
 ///     front_m = 0.2                          # space before the workspace (-y) that must be seen
 ///     height_share = 0.8                     # share of the workspace's height that must be seen
+///
+///     [looks.ranked-views]                   # of a layer, multiplied on top of its style
+///     opacity = 0.5                          # [0, 1]
+///     size = 2.0                             # widths of lines, points and letters, [0.2, 5]
+///     color_map = "viridis"
+///
+///     [clip]                                 # maps, surfaces and contours are drawn in this box only
+///     min_m = [-0.5, -0.5, 0.0]
+///     max_m = [0.5, 0.5, 0.4]
 ///
 /// \throws InputError naming FILE:LINE: not readable, not TOML, unknown keys or layers (with the nearest
 /// known one), values out of range.

@@ -1,12 +1,7 @@
 // Recipes as TOML files.
 #include <toml++/toml.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
-#include <numbers>
-#include <optional>
-#include <stdexcept>
 #include <utility>
 
 #include "io/error.h"
@@ -14,164 +9,25 @@
 #include "io/suggest.h"
 #include "snapshots/recipe.h"
 #include "viewer/captions.h"
+#include "viewer/view_toml.h"
 
 namespace vantage {
 namespace {
-
-constexpr double kRadians = std::numbers::pi / 180.0;
 
 constexpr std::pair<const char*, Figures*> kCaptions[] = {
     {"scan", scanFigures},        {"states", stateFigures},   {"contours", contourFigures},
     {"segments", segmentFigures}, {"views", viewFigures},     {"octree", octreeFigures},
     {"rays", rayFigures},         {"utility", utilityFigures}};
 
-constexpr std::pair<const char*, double LayerStyle::*> kStyleNumbers[] = {
-    {"unknown_opacity", &LayerStyle::unknown_opacity},   {"free_opacity", &LayerStyle::free_opacity},
-    {"truth_opacity", &LayerStyle::truth_opacity},       {"surface_opacity", &LayerStyle::surface_opacity},
-    {"saliency_max", &LayerStyle::saliency_max},         {"label_px", &LayerStyle::label_px},
-    {"frustum_length_m", &LayerStyle::frustum_length_m}, {"line_scale", &LayerStyle::line_scale}};
-
-constexpr std::pair<const char*, int LayerStyle::*> kStyleCounts[] = {
-    {"ranked_views", &LayerStyle::ranked_views},
-    {"unreachable_views", &LayerStyle::unreachable_views},
-    {"coarse_rays", &LayerStyle::coarse_rays}};
-
-constexpr std::pair<const char*, std::optional<int> LayerStyle::*> kStyleChoices[] = {
-    {"octree_level", &LayerStyle::octree_level}, {"view_id", &LayerStyle::view_id}};
-
-/// A number of the camera and what one unit of it in the file is.
-struct CameraNumber {
-  const char* key;
-  double CameraView::*value;
-  double unit;
-};
-constexpr CameraNumber kCameraNumbers[] = {{"azimuth_deg", &CameraView::azimuth_rad, kRadians},
-                                           {"elevation_deg", &CameraView::elevation_rad, kRadians},
-                                           {"fov_deg", &CameraView::fov_rad, kRadians},
-                                           {"zoom", &CameraView::zoom, 1.0}};
-
-constexpr std::pair<const char*, std::optional<double> CameraView::*> kCameraFrame[] = {
-    {"front_m", &CameraView::front_m}, {"height_share", &CameraView::height_share}};
-
-/// Settings are validated after each key, so that the message can name its line.
-template <class Settings>
-void check(const Settings& settings, const SceneTable& table, const std::string& key) {
-  try {
-    settings.validate();
-  } catch (const std::invalid_argument& error) {
-    table.fail(key, error.what());
-  }
-}
-
-int readCount(SceneTable& table, const char* key, int fallback) {
-  const double count = table.number(key, fallback);
-  if (count != std::floor(count) || std::abs(count) > 1e9)
-    table.fail(key, std::string("'") + key + "' is no count; give a whole number");
-  return static_cast<int>(count);
-}
-
-UtilityFactor readFactor(SceneTable& table, UtilityFactor fallback) {
-  const std::string wanted = table.text("utility_factor", std::string(factorName(fallback)));
-  if (const auto factor = factorNamed(wanted)) return *factor;
-  std::vector<std::string> known;
-  for (const std::string_view name : factorNames()) known.emplace_back(name);
-  table.fail("utility_factor", "there is no factor '" + wanted + "'" + suggestion(wanted, known));
-}
-
-/// `slice_axis` shows one slice alone and `slice_at_m` places it; `slice_x_m` and its like add one each.
-void readSlices(SceneTable& table, LayerStyle& style) {
-  std::string shown;
-  for (int axis = 0; axis < 3; ++axis)
-    if (style.slices[axis].shown) shown += static_cast<char>('x' + axis);
-  const std::string axis = table.text("slice_axis", shown);
-  if (table.has("slice_axis")) {
-    if (axis != "x" && axis != "y" && axis != "z")
-      table.fail("slice_axis", "'" + axis + "' is no axis; allowed: x, y, z");
-    const SlicePlane plane{true, shown.empty() ? std::nullopt : style.slices[shown[0] - 'x'].at_m};
-    style.slices = {};
-    style.slices[axis[0] - 'x'] = plane;
-  }
-  table.accept({"slice_at_m"});
-  if (table.has("slice_at_m")) {
-    for (SlicePlane& plane : style.slices)
-      if (plane.shown) plane.at_m = table.number("slice_at_m");
-  }
-  for (int n = 0; n < 3; ++n) {
-    const std::string key = std::string("slice_") + static_cast<char>('x' + n) + "_m";
-    table.accept({key});
-    if (table.has(key)) style.slices[n] = {true, table.number(key)};
-  }
-  check(style, table, "slice_at_m");
-}
-
-ColorMap readColorMap(SceneTable& table) {
-  const std::string wanted = table.text("color_map");
-  if (wanted == "viridis") return ColorMap::Viridis;
-  if (wanted == "cividis") return ColorMap::Cividis;
-  table.fail("color_map", "there is no colour map '" + wanted + "'; allowed: viridis, cividis");
-}
-
-void readStyle(SceneTable table, LayerStyle& style) {
-  for (const auto& [key, member] : kStyleNumbers) {
-    style.*member = table.number(key, style.*member);
-    check(style, table, key);
-  }
-  for (const auto& [key, member] : kStyleCounts) {
-    style.*member = readCount(table, key, style.*member);
-    check(style, table, key);
-  }
-  for (const auto& [key, member] : kStyleChoices) {
-    table.accept({key});
-    if (table.has(key)) style.*member = readCount(table, key, 0);
-    check(style, table, key);
-  }
-  style.utility_factor = readFactor(table, style.utility_factor);
-  readSlices(table, style);
-  table.accept({"color_map"});
-  if (table.has("color_map")) style.color_map = readColorMap(table);
-  table.finish();
-}
-
-void readCamera(SceneTable table, CameraView& camera) {
-  for (const auto& [key, member, unit] : kCameraNumbers) {
-    table.accept({key});
-    if (table.has(key)) camera.*member = table.number(key) * unit;
-    check(camera, table, key);
-  }
-  for (const auto& [key, member] : kCameraFrame) {
-    table.accept({key});
-    if (table.has(key)) camera.*member = table.number(key);
-    check(camera, table, key);
-  }
-  const std::string focus = table.text("focus", camera.object ? "object" : "workspace");
-  if (focus != "object" && focus != "workspace")
-    table.fail("focus", "there is no focus '" + focus + "'; allowed: workspace, object");
-  camera.object = focus == "object";
-  table.finish();
-}
-
-LayerSet readLayers(const toml::table& document, const std::string& source) {
+/// The layers of a recipe, which it must name.
+LayerSet layersOf(const toml::table& document, const std::string& source) {
   const toml::node* node = document.get("layers");
   if (!node)
     throw InputError(source, "'layers' is missing; name what is to be shown, e.g. layers = [\"surface\"]");
-  const toml::array* names = node->as_array();
-  if (!names || names->empty())
+  const LayerSet layers = readLayers(*node, source);
+  if (layers == LayerSet())
     throw InputError(tomlPlace(source, node->source()),
                      "'layers' is no list of names; write layers = [\"surface\"]");
-  LayerSet layers;
-  for (const toml::node& entry : *names) {
-    const auto name = entry.value<std::string>();
-    if (!entry.is_string() || !name)
-      throw InputError(tomlPlace(source, entry.source()), "'layers' must hold names in quotes");
-    const auto layer = layerNamed(*name);
-    if (!layer) {
-      std::vector<std::string> known;
-      for (const std::string_view each : layerNames()) known.emplace_back(each);
-      throw InputError(tomlPlace(source, entry.source()),
-                       "there is no layer '" + *name + "'" + suggestion(*name, known));
-    }
-    layers.set(*layer, true);
-  }
   return layers;
 }
 
@@ -200,15 +56,6 @@ toml::table parse(const std::filesystem::path& file) {
   }
 }
 
-/// A table of the document, or nothing if it is not there.
-const toml::table* part(const toml::table& document, const char* name, const std::string& source) {
-  const toml::node* node = document.get(name);
-  if (node && !node->is_table())
-    throw InputError(tomlPlace(source, node->source()),
-                     std::string("'") + name + "' is no table; write [" + name + "] and its keys below");
-  return node ? node->as_table() : nullptr;
-}
-
 }  // namespace
 
 Recipe readRecipe(const std::filesystem::path& file) {
@@ -217,16 +64,28 @@ Recipe readRecipe(const std::filesystem::path& file) {
   Recipe recipe;
   recipe.name = file.stem().string();
   recipe.purpose = "recipe of " + source;
-  recipe.view.layers = readLayers(document, source);
-  if (const auto* style = part(document, "style", source))
-    readStyle({*style, source, "style"}, recipe.view.style);
-  if (const auto* camera = part(document, "camera", source))
-    readCamera({*camera, source, "camera"}, recipe.view.camera);
+  recipe.view.layers = layersOf(document, source);
+  if (const auto* part = tomlPart(document, "style", source)) {
+    SceneTable table(*part, source, "style");
+    readStyle(table, recipe.view.style);
+    table.finish();
+  }
+  if (const auto* part = tomlPart(document, "camera", source)) {
+    SceneTable table(*part, source, "camera");
+    readCamera(table, recipe.view.camera);
+    table.finish();
+  }
+  if (const auto* part = tomlPart(document, "looks", source)) readLooks(*part, source, recipe.view);
+  if (const auto* part = tomlPart(document, "clip", source)) {
+    SceneTable table(*part, source, "clip");
+    recipe.view.clip = readBox(table);
+    table.finish();
+  }
 
   SceneTable top(document, source, "recipe");
   recipe.title = top.text("title", recipe.name);
   recipe.figures = readCaption(top);
-  top.accept({"layers", "style", "camera"});
+  top.accept({"layers", "style", "camera", "looks", "clip"});
   top.finish();
   return recipe;
 }
@@ -244,7 +103,9 @@ void setStyle(LayerStyle& style, const std::string& assignment) {
     table.insert(key, number);
   else
     table.insert(key, value);
-  readStyle({table, source, "style"}, style);
+  SceneTable keys(table, source, "style");
+  readStyle(keys, style);
+  keys.finish();
 }
 
 Recipe recipeFrom(const std::string& name_or_file) {
