@@ -253,7 +253,7 @@ TEST_F(Octree, DamagedMapsAreRefused) {
   const std::string whole = readFile(folder_ / "half.bt");
   writeFile(folder_ / "cut.bt", whole.substr(0, whole.size() - 5));
   expectRefused(vantage({"info", folder_ / "cut.bt"}), {"cut.bt", "truncated"});
-  expectRefused(vantage({"info", folder_ / "absent.bt"}), {"absent.bt", "cannot be read"});
+  expectRefused(vantage({"info", folder_ / "absent.bt"}), {"absent.bt", "does not exist"});
   std::string color = whole;
   color.replace(color.find("id OcTree"), 9, "id ColorOcTree");
   writeFile(folder_ / "color.bt", color);

@@ -8,14 +8,17 @@
 
 #include "io/cloud_file.h"
 #include "io/dataset.h"
+#include "io/mesh_file.h"
 #include "io/run_file.h"
 #include "io/scene_file.h"
 #include "io/table_file.h"
 #include "io/text_file.h"
+#include "snapshots/recipe.h"
 #include "viewer/app/command.h"
 #include "viewer/app/console.h"
 #include "viewer/app/inputs.h"
 #include "viewer/app/json_output.h"
+#include "viewer/file_kind.h"
 
 namespace vantage::app {
 namespace {
@@ -138,29 +141,59 @@ Json describeScene(const std::string& name) {
 Json describeTable(const std::string& path) {
   const std::string text = readTextFile(path, std::uintmax_t{1} << 30);
   const std::string header = text.substr(0, text.find_first_of("\r\n"));
-  if (header.rfind("id,x_m,", 0) == 0)
+  if (kindOf(path) == FileKind::Views)
     return {{"kind", "views"}, {"columns", header}, {"views", readViews(path).size()}};
   const auto lines = std::count(text.begin(), text.end(), '\n') + (!text.empty() && text.back() != '\n');
   if (lines == 0) throw InputError(path, "is empty; a table with a header row is wanted");
   return {{"kind", "table"}, {"columns", header}, {"rows", lines - 1}};
 }
 
+Json describeMesh(const std::string& path) {
+  const TriangleMesh mesh = loadMesh(path);
+  return {{"kind", "mesh"}, {"vertices", mesh.vertices.size()}, {"triangles", mesh.triangles.size()}};
+}
+
+Json describeRecipe(const std::string& path) {
+  const Recipe recipe = readRecipe(path);
+  Json layers = Json::array();
+  for (const std::string_view name : layerNames())
+    if (recipe.view.layers.has(*layerNamed(name))) layers.push_back(name);
+  return {{"kind", "recipe"}, {"title", recipe.title}, {"layers", layers}};
+}
+
+/// The keys that a configuration sets.
+Json describeConfig(const std::string& path) {
+  Settings settings;
+  applyTomlFile(settings, path);
+  Json keys = Json::array();
+  for (const auto& [key, origin] : settings.origins) keys.push_back(key);
+  return {{"kind", "configuration"}, {"keys", keys}};
+}
+
 Json describe(const GlobalOptions& global, const std::string& path) {
-  const std::string extension = std::filesystem::path(path.substr(0, path.find('#'))).extension().string();
-  if (path.find('#') != std::string::npos || extension == ".vti" || extension == ".bt" || extension == ".ot")
-    return describeMap(global, path);
-  if (extension == ".vantage") return describeRun(path);
-  if (extension == ".pcd" || extension == ".ply") return describeCloud(path);
-  if (std::filesystem::is_directory(path)) return describeDataset(path);
-  if (extension == ".csv") return describeTable(path);
-  for (const char* map : {".bt.toml", ".ot.toml"})
-    if (path.ends_with(map))
-      throw InputError(path, "is the text that says which space the octree beside it maps; look at '" +
-                                 path.substr(0, path.size() - 5) + "'");
-  if (extension == ".toml" || extension.empty()) return describeScene(path);
-  throw InputError(path,
-                   "not a kind of file that is known; known: .vantage, .vti, .bt, .ot, .pcd, .ply, .csv, "
-                   ".toml, data set folders");
+  if (path.find('#') != std::string::npos) return describeMap(global, path);
+  switch (requireKind(path)) {
+    case FileKind::Run:
+      return describeRun(path);
+    case FileKind::Tsdf:
+    case FileKind::Octree:
+      return describeMap(global, path);
+    case FileKind::Cloud:
+      return describeCloud(path);
+    case FileKind::Mesh:
+      return path.ends_with(".ply") ? describeCloud(path) : describeMesh(path);
+    case FileKind::Views:
+    case FileKind::Table:
+      return describeTable(path);
+    case FileKind::Recipe:
+      return describeRecipe(path);
+    case FileKind::Config:
+      return describeConfig(path);
+    case FileKind::Dataset:
+      return describeDataset(path);
+    default:
+      return describeScene(path);
+  }
 }
 
 int info(const GlobalOptions& global, const std::string& path) {
@@ -176,9 +209,12 @@ int info(const GlobalOptions& global, const std::string& path) {
 
 void addInfo(CLI::App& app, const GlobalOptions& global, Action& action) {
   auto path = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("info", "What a file holds: run, map, cloud, scene, data set");
+  CLI::App* command = app.add_subcommand(
+      "info", "What a file holds: run, map, cloud, mesh, scene, table, recipe, configuration, data set");
   command
-      ->add_option("file", *path, "Run, RUN#STEP, .vti, .bt, .ot, .pcd, .ply, CSV, scene, or data set folder")
+      ->add_option(
+          "file", *path,
+          "Run, RUN#STEP, .vti, .bt, .ot, .pcd, .ply, .obj, .stl, CSV, TOML, scene, or data set folder")
       ->required()
       ->type_name("FILE");
   command->footer("Example: vantage info tabletop.vantage");

@@ -15,6 +15,7 @@
 #include "io/scene_truth.h"
 #include "io/volume_file.h"
 #include "viewer/app/console.h"
+#include "viewer/file_kind.h"
 
 namespace vantage::app {
 namespace {
@@ -198,7 +199,7 @@ LoadedMap loadMap(const GlobalOptions& global, const std::string& map, MapNeed n
   LoadedMap loaded;
   loaded.settings = commandSettings(global);
   const std::string ending = std::filesystem::path(map).extension().string();
-  const bool is_octree = ending == ".bt" || ending == ".ot";
+  const bool is_octree = ending == ".bt" || ending == ".ot" || kindOf(map) == FileKind::Octree;
   if (is_octree && need == MapNeed::Tsdf) refuseOctree(map);
   if (is_octree) {
     loaded.octree = readOctree(map, loaded.settings.exploration.octree.occupancy);
