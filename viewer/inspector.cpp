@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "io/text_file.h"
 #include "viewer/captions.h"
@@ -64,6 +65,7 @@ struct Inspector::State {
   std::string after_dialog;  ///< what the chosen file is for: "open", "write config"
   bool close = false;
   TimelinePlace place_before;
+  bool eye_wanted = false;  ///< a recipe places the eye at the next frame
   std::filesystem::path file_before;
   InspectorCommands commands;  ///< last: refers to the others
 
@@ -79,7 +81,7 @@ struct Inspector::State {
   void statusBar(const Layout& l);
   void splitters(const Layout& l);
   void dialogs(PanelContext& context, const Layout& l);
-  void followStage();
+  void followModel();
   void screenshot();
   void writeConfig(const std::filesystem::path& file);
 };
@@ -117,6 +119,8 @@ WindowActions Inspector::State::actions() {
   a.bookmark = [this](int n) {
     if (n < static_cast<int>(preferences.bookmarks.size())) view.setEye(preferences.bookmarks[n].eye);
   };
+  a.measure = [this] { view.toggleMeasuring(); };
+  a.measuring = [this] { return view.measuring(); };
   a.orbit = [this](double left_rad, double up_rad) { view.orbitBy(left_rad, up_rad); };
   a.zoom = [this](double factor) { view.zoomBy(factor); };
   return a;
@@ -335,14 +339,19 @@ void Inspector::State::dialogs(PanelContext& context, const Layout& l) {
   }
 }
 
-/// A stage that is gone to, by hand or by playing, brings its layers.
-void Inspector::State::followStage() {
+/// A stage that is gone to, by hand or by playing, brings its layers; so do a recipe and the first file.
+void Inspector::State::followModel() {
+  if (const auto recipe = model.takeRecipe()) {
+    preferences.view = *recipe;
+    eye_wanted = true;
+  }
   if (model.file() != file_before) {
     file_before = model.file();
     place_before = model.place();
     preferences.addRecent(model.file());
-    return;
   }
+  if (preferences.view.layers == LayerSet() && !model.recorded().empty())
+    preferences.view.layers = overviewLayers(model.planner());
   if (model.place().stage != place_before.stage)
     preferences.view.layers = model.stages()[model.place().stage].layers;
   place_before = model.place();
@@ -375,7 +384,9 @@ void Inspector::State::writeConfig(const std::filesystem::path& file) {
 }
 
 Inspector::Inspector(GlContext& context, InspectorPorts ports, Preferences preferences)
-    : state_(std::make_unique<State>(context, std::move(ports), std::move(preferences))) {}
+    : state_(std::make_unique<State>(context, std::move(ports), std::move(preferences))) {
+  state_->model.read_recipe = state_->ports.recipe;
+}
 
 Inspector::~Inspector() = default;
 
@@ -385,7 +396,7 @@ void Inspector::open(const std::vector<std::filesystem::path>& files) {
 
 bool Inspector::update(double elapsed_s) {
   const bool changed = state_->model.update(elapsed_s);
-  state_->followStage();
+  state_->followModel();
   const auto due_s = state_->view.nextRender_s();
   return changed || (due_s && *due_s <= 0.0);
 }
@@ -397,6 +408,7 @@ void Inspector::draw(double pixel_scale) {
   io.ConfigFlags = s.preferences.keyboard_navigation ? ImGuiConfigFlags_NavEnableKeyboard : 0;
   PanelContext context = s.panelContext();
   s.keys();
+  if (std::exchange(s.eye_wanted, false)) s.view.resetEye(context);
   const Layout layout = s.layout();
   s.menus(context);
   s.viewWindow(context, layout, pixel_scale);
@@ -430,6 +442,12 @@ const Commands& Inspector::commands() const {
 
 InspectorModel& Inspector::model() {
   return state_->model;
+}
+
+std::optional<std::string> Inspector::error() const {
+  for (const Notice& notice : state_->model.notices())
+    if (notice.level == Notice::Level::Error) return notice.text;
+  return std::nullopt;
 }
 
 std::uint64_t Inspector::picturesRendered() const {

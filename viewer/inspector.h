@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,8 @@ class Inspector {
   const Widgets& widgets() const;
   const Commands& commands() const;
   InspectorModel& model();
+  /// What went wrong last, if that is still being told.
+  std::optional<std::string> error() const;
   /// Pictures of the 3-D view that were rendered so far.
   std::uint64_t picturesRendered() const;
 

@@ -99,6 +99,8 @@ void InspectorCommands::addView() {
     add(std::string("view.") + kSides[side], "View", std::string("Look from the ") + kSides[side],
         {keyOf(static_cast<char>('1' + side))}, [this, side] { actions_.look_along(side); });
   add("view.through", "View", "Look through the selected view", {keyOf('V')}, actions_.look_through_view);
+  add("view.measure", "View", "Measure a distance", {keyOf('M')}, actions_.measure).checked =
+      actions_.measuring;
   add("view.left", "View", "Turn left", {keyOf('A')}, [this] { actions_.orbit(kTurn_rad, 0.0); });
   add("view.right turn", "View", "Turn right", {keyOf('D')}, [this] { actions_.orbit(-kTurn_rad, 0.0); });
   add("view.up", "View", "Turn up", {keyOf('W')}, [this] { actions_.orbit(0.0, kTurn_rad); });

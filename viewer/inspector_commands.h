@@ -10,7 +10,8 @@ namespace vantage {
 /// What commands act on beside model and preferences: parts of the window.
 struct WindowActions {
   std::function<void()> open_dialog, screenshot, write_config, palette, cheat_sheet, quit, reset_eye,
-      look_through_view, add_bookmark;
+      look_through_view, add_bookmark, measure;
+  std::function<bool()> measuring;
   std::function<void(int)> look_along, bookmark;
   std::function<void(double, double)> orbit;
   std::function<void(double)> zoom;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "io/error.h"
+#include "io/table_file.h"
+#include "io/text_file.h"
 #include "viewer/map_session.h"
 
 namespace vantage {
@@ -42,18 +45,57 @@ bool InspectorModel::idle() const {
 
 void InspectorModel::open(const std::filesystem::path& file) {
   opening_ = true;
-  work_.start(kOpen, [this, file](const RunControl& control) -> BackgroundWork::Finish {
-    control.report("opening " + file.filename().string(), 0, 0);
-    if (kindOf(file) == FileKind::Run) {
-      auto session = std::make_shared<RunSession>(file);
-      return [this, session, file] { takeOver(session, file); };
-    }
-    StepData data = openAsStep(file);
-    return [this, data = std::move(data), file] {
-      takeOver(nullptr, file);
-      show(data, 0);
-    };
-  });
+  work_.start(kOpen,
+              [this, file, over_step = !recorded_.empty(),
+               recipe = read_recipe](const RunControl& control) -> BackgroundWork::Finish {
+                control.report("opening " + file.filename().string(), 0, 0);
+                return opened(file, over_step, recipe);
+              });
+}
+
+/// Reads a file, on the worker: nothing of the model may be touched but by what it returns.
+BackgroundWork::Finish InspectorModel::opened(const std::filesystem::path& file, bool over_step,
+                                              const ReadRecipe& recipe) {
+  const std::string name = file.filename().string();
+  switch (requireKind(file)) {
+    case FileKind::Run:
+      return [this, session = std::make_shared<RunSession>(file), file] { takeOver(session, file); };
+    case FileKind::Config:
+      return [this, text = readTextFile(file), file, name] {
+        opening_ = false;
+        if (!what_if_.ready()) throw InputError(name, "holds parameters; open a run to try them on first");
+        what_if_.load(text, file.string());
+        say(Notice::Level::Info, "the parameters of " + name + " are tried");
+      };
+    case FileKind::Recipe:
+      if (!recipe) throw InputError(name, "is a recipe, which cannot be read here");
+      return [this, view = recipe(file), name] {
+        opening_ = false;
+        recipe_ = view;
+        say(Notice::Level::Info, "the view of recipe " + name);
+      };
+    case FileKind::Views:
+      if (over_step)
+        return [this, views = readViews(file), name] {
+          opening_ = false;
+          what_if_.setStep(recorded_, nullptr);
+          recorded_ = withViews(recorded_, views);
+          ++revision_;
+          say(Notice::Level::Info, std::to_string(views.size()) + " views of " + name + " over the step");
+        };
+      break;
+    case FileKind::Dataset:
+      throw InputError(name, "is a recorded sequence; explore it first: vantage explore " + file.string());
+    default:
+      break;
+  }
+  std::vector<std::string> warnings;
+  StepData data = openAsStep(file, &warnings);
+  return [this, data = std::move(data), file, warnings] {
+    takeOver(nullptr, file);
+    show(data, 0);
+    for (const std::string& warning : warnings) say(Notice::Level::Warning, warning);
+  };
 }
 
 void InspectorModel::takeOver(std::shared_ptr<RunSession> session, std::filesystem::path file) {
@@ -144,9 +186,8 @@ void InspectorModel::follow() {
       const std::string name = file_.filename().string();
       if (news.gone || !news.problem.empty()) {
         finished_ = true;
-        say(Notice::Level::Warning,
-            (news.gone ? name + " is gone" : news.problem) +
-                                       "; what is loaded stays, other steps cannot be shown");
+        say(Notice::Level::Warning, (news.gone ? name + " is gone" : news.problem) +
+                                        "; what is loaded stays, other steps cannot be shown");
         return;
       }
       if (news.replaced) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "viewer/background_work.h"
@@ -34,9 +35,15 @@ class InspectorModel {
   ~InspectorModel();
   InspectorModel(const InspectorModel&) = delete;
 
-  /// Opens a run or a file that is shown like one step, in the background. What is open stays until the new
-  /// one is there; failures become notices.
+  /// Opens a file in the background: a run, a file that is shown like one step, views to be shown over the
+  /// step, parameters to be tried, or a recipe. What is open stays until the new one is there; failures
+  /// become notices.
   void open(const std::filesystem::path& file);
+  /// Reads the view of a recipe file, on any thread; without it recipes cannot be opened.
+  using ReadRecipe = std::function<ViewSettings(const std::filesystem::path&)>;
+  ReadRecipe read_recipe;
+  /// The view of a recipe that was opened since the last call.
+  std::optional<ViewSettings> takeRecipe() { return std::exchange(recipe_, std::nullopt); }
   /// Takes over finished work and lets time pass; true if something that is shown changed.
   bool update(double elapsed_s);
   /// Nothing is loading, computing or playing.
@@ -86,6 +93,7 @@ class InspectorModel {
   const BackgroundWork& work() const { return work_; }
 
  private:
+  BackgroundWork::Finish opened(const std::filesystem::path& file, bool over_step, const ReadRecipe& recipe);
   void takeOver(std::shared_ptr<RunSession> session, std::filesystem::path file);
   void show(StepData data, int index);
   void load(int index);
@@ -102,6 +110,7 @@ class InspectorModel {
   StepData recorded_;
   std::uint64_t revision_ = 0;
   double since_follow_s_ = 0.0;
+  std::optional<ViewSettings> recipe_;
   std::vector<Notice> notices_;
   BackgroundWork work_;  ///< its destructor waits for the job that runs; jobs own what they work on
   WhatIf what_if_;

@@ -29,8 +29,8 @@ struct ParameterGroup {
   std::vector<Parameter> parameters;
 };
 
-/// Everything that steers a planner, in the order of its stages; what re-ranks at once comes first. Left out is
-/// what concerns other steps than the one that is looked at: views that disappointed (D-B33), and recorded
+/// Everything that steers a planner, in the order of its stages; what re-ranks at once comes first. Left out
+/// is what concerns other steps than the one that is looked at: views that disappointed (D-B33), and recorded
 /// poses as candidates.
 const std::vector<ParameterGroup>& parametersOf(PlannerKind planner);
 

@@ -3,8 +3,8 @@
 #include <memory>
 #include <optional>
 
-#include "core/exploration/planner_kind.h"
 #include "core/exploration/plan_view.h"
+#include "core/exploration/planner_kind.h"
 #include "core/exploration/replan.h"
 #include "core/planners/search_again.h"
 #include "io/config_file.h"

@@ -14,6 +14,7 @@
 #include "io/suggest.h"
 #include "viewer/app/command.h"
 #include "viewer/app/console.h"
+#include "viewer/window.h"
 
 namespace {
 

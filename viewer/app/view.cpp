@@ -35,6 +35,14 @@ RgbImage pictureOf(const SceneFrame& frame, const ViewSettings& view, GlContext&
   return drawRecipe(scene, renderer, recipe, frame, width, height);
 }
 
+/// What both windows need from the snapshots.
+InspectorPorts commonPorts() {
+  InspectorPorts ports;
+  ports.picture = pictureOf;
+  ports.recipe = [](const std::filesystem::path& file) { return readRecipe(file).view; };
+  return ports;
+}
+
 std::vector<std::filesystem::path> existing(const std::vector<std::string>& files) {
   std::vector<std::filesystem::path> paths;
   for (const std::string& file : files) {
@@ -51,9 +59,7 @@ int drawWindow(const GlobalOptions& global, const ViewOptions& options,
                const std::vector<std::filesystem::path>& files) {
   const auto [width, height] = parseSize("--size", options.size);
   EglContext context;
-  InspectorPorts ports;
-  ports.picture = pictureOf;
-  Inspector inspector(context, std::move(ports), Preferences{});
+  Inspector inspector(context, commonPorts(), Preferences{});
   OffscreenUi ui(context, inspector, width, height);
   inspector.open(files);
   ui.settle();
@@ -71,8 +77,7 @@ int openWindow(const ViewOptions& options, const std::vector<std::filesystem::pa
   window_options.height = preferences.window_height;
   window_options.quit_after_s = options.seconds;
   Window window(window_options);
-  InspectorPorts ports;
-  ports.picture = pictureOf;
+  InspectorPorts ports = commonPorts();
   ports.copy = [&window](const std::string& text) { window.copy(text); };
   ports.wake = [&window] { window.wake(); };
   Inspector inspector(window.context(), std::move(ports), std::move(preferences));

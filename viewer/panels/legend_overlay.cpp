@@ -1,8 +1,7 @@
 // Legends, colour scales and insets of the layers that are shown, over the 3-D view.
 #include <imgui.h>
 
-#include <array>
-#include <cstdio>
+#include <algorithm>
 
 #include "viewer/panels/panel.h"
 #include "viewer/panels/plot.h"
@@ -60,13 +59,11 @@ void drawScale(ImDrawList& draw, const ColorScale& scale, const Theme& theme) {
     draw.AddRectFilled({x0, at.y}, {x1, at.y + height}, packed(colorAt(scale.map, (i + 0.5) / kPieces)));
   }
   ImGui::Dummy({width, height});
-  std::array<char, 32> text;
   const double step = (scale.high - scale.low) / 2.0;
   for (int i = 0; i <= 2; ++i) {
-    const bool top = i == 2 && scale.open_top;
-    std::snprintf(text.data(), text.size(), top ? "≥ %.3g" : "%.3g", scale.low + i * step);
-    const float size = ImGui::CalcTextSize(text.data()).x;
-    draw.AddText({at.x + (width - size) * i / 2.0f, at.y + height + 1.0f}, packed(theme.ink), text.data());
+    const std::string text = (i == 2 && scale.open_top ? "≥ " : "") + shortNumber(scale.low + i * step);
+    const float size = ImGui::CalcTextSize(text.c_str()).x;
+    draw.AddText({at.x + (width - size) * i / 2.0f, at.y + height + 1.0f}, packed(theme.ink), text.c_str());
   }
   ImGui::Dummy({width, ImGui::GetFontSize()});
 }

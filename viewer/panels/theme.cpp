@@ -56,9 +56,9 @@ void setColors(ImGuiStyle& style, const Theme& t, bool high_contrast) {
   c[ImGuiCol_ChildBg] = vec(t.panel, 0.0);
   c[ImGuiCol_PopupBg] = vec(mixed(t.panel, t.paper, 0.5));
   c[ImGuiCol_Border] = c[ImGuiCol_Separator] = tint(high_contrast ? 1.0 : 0.22);
-  c[ImGuiCol_FrameBg] = tint(0.09);
-  c[ImGuiCol_FrameBgHovered] = tint(0.16);
-  c[ImGuiCol_FrameBgActive] = tint(0.22);
+  c[ImGuiCol_FrameBg] = tint(0.14);
+  c[ImGuiCol_FrameBgHovered] = tint(0.2);
+  c[ImGuiCol_FrameBgActive] = tint(0.26);
   c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgActive] = c[ImGuiCol_TitleBgCollapsed] = tint(0.08);
   c[ImGuiCol_ScrollbarBg] = vec(t.panel, 0.0);
   c[ImGuiCol_ScrollbarGrab] = tint(0.3);

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "viewer/captions.h"
 #include "viewer/layers/shapes.h"
 #include "viewer/panels/plot.h"
+#include "viewer/pick_text.h"
 #include "viewer/ui_host.h"
 
 namespace vantage {
@@ -171,36 +173,140 @@ void ViewPanel::mouse(PanelContext& context, double left, double top) {
   if (viewport_.dragging()) {
     viewport_.move(at_px);
     if (!ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2)) viewport_.release();
+  } else if (hovered) {
+    hover(context, at_px);
+  } else {
+    hovered_.reset();
   }
+  constexpr double kStill_px = 4.0;
+  const bool clicked = ImGui::IsMouseReleased(0) && (at_px - pressed_at_).norm() <= kStill_px;
+  if (hovered && clicked) {
+    hover(context, at_px);
+    click(context);
+  }
+  if (hovered && ImGui::IsMouseDoubleClicked(0) && hovered_) lookAt(hovered_->p_world);
   if (hovered && io.MouseWheel != 0.0f) viewport_.wheel(io.MouseWheel, at_px);
   context.preferences.eye = scene_.eye();
 }
 
-void ViewPanel::overlays(PanelContext& context, double left, double top) {
-  const auto view = context.model.selected_view;
-  if (!view) return;
-  const SceneFrame frame = context.model.shown().frame();
-  const auto pose = poseOfView(frame, *view);
-  if (!pose) return;
-  const Eye eye = scene_.eye();
-  const PictureSize size = viewport_.size();
-  const FrustumCorners corners = frustumCorners(viewCamera(frame), *pose, 0.2);
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const auto line = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b, float width) {
-    const auto from = pixelOf(eye, a, size), to = pixelOf(eye, b, size);
-    if (!from || !to) return;
-    const auto place = [&](const Eigen::Vector2d& p) {
-      return ImVec2(static_cast<float>(left + p.x() / pixel_scale_),
-                    static_cast<float>(top + p.y() / pixel_scale_));
-    };
-    draw.AddLine(place(*from), place(*to), packed(context.theme.accent), width);
-  };
-  draw.PushClipRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), true);
-  for (int i = 0; i < 4; ++i) {
-    line(corners.apex, corners.image[i], 2.5f);
-    line(corners.image[i], corners.image[(i + 1) % 4], 2.5f);
+void ViewPanel::hover(PanelContext& context, const Eigen::Vector2d& at_px) {
+  const StepData& step = context.model.shown();
+  if (at_px != hovered_at_ || viewport_.nextRender_s()) {
+    hovered_at_ = at_px;
+    hovered_ = picker_.at(step.frame(), arranged_, scene_.eye(), at_px, viewport_.size());
   }
-  draw.PopClipRect();
+  if (!hovered_) return;
+  const std::string text = textOf(*hovered_, step, context.candidates.table.rows());
+  ImGui::BeginTooltip();
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::EndTooltip();
+  context.widgets.note("view/hover");
+}
+
+void ViewPanel::click(PanelContext& context) {
+  if (!hovered_) {
+    if (!measuring_) context.model.selected_view.reset();
+    return;
+  }
+  if (measuring_) {
+    if (measured_.size() == 2) measured_.clear();
+    measured_.push_back(hovered_->p_world);
+  } else if (hovered_->kind == PickedKind::Frustum) {
+    context.model.selected_view = hovered_->id;
+  }
+}
+
+void ViewPanel::toggleMeasuring() {
+  measuring_ = !measuring_;
+  measured_.clear();
+}
+
+void ViewPanel::lookAt(const Eigen::Vector3d& p_world) {
+  Eye eye = scene_.eye();
+  eye.position += p_world - eye.focus;
+  eye.focus = p_world;
+  setEye(eye);
+}
+
+struct ViewPanel::Overlay {
+  ImDrawList& draw;
+  Eye eye;
+  PictureSize size;
+  double left, top, pixel_scale;
+
+  std::optional<ImVec2> at(const Eigen::Vector3d& p_world) const {
+    const auto px = pixelOf(eye, p_world, size);
+    if (!px) return std::nullopt;
+    return ImVec2(static_cast<float>(left + px->x() / pixel_scale),
+                  static_cast<float>(top + px->y() / pixel_scale));
+  }
+  void line(const Eigen::Vector3d& a, const Eigen::Vector3d& b, ImU32 color, float width) const {
+    const auto from = at(a), to = at(b);
+    if (from && to) draw.AddLine(*from, *to, color, width);
+  }
+  void arrow(const Eigen::Vector3d& a, const Eigen::Vector3d& b, ImU32 color) const {
+    const auto from = at(a), to = at(b);
+    if (!from || !to) return;
+    const float dx = to->x - from->x, dy = to->y - from->y, length = std::hypot(dx, dy);
+    if (length < 12.0f) return;
+    const float u = dx / length, v = dy / length;
+    const ImVec2 neck{to->x - 12.0f * u, to->y - 12.0f * v};
+    draw.AddLine(*from, neck, color, 3.0f);
+    draw.AddTriangleFilled(*to, {neck.x - 6.0f * v, neck.y + 6.0f * u},
+                           {neck.x + 6.0f * v, neck.y - 6.0f * u}, color);
+  }
+  void frustum(const PinholeCamera& camera, const Pose& pose, ImU32 color) const {
+    constexpr double kLength_m = 0.2;
+    const FrustumCorners corners = frustumCorners(camera, pose, kLength_m);
+    for (int i = 0; i < 4; ++i) {
+      line(corners.apex, corners.image[i], color, 2.5f);
+      line(corners.image[i], corners.image[(i + 1) % 4], color, 2.5f);
+    }
+  }
+  void text(const Eigen::Vector3d& p_world, const std::string& text, ImU32 ink, ImU32 paper) const {
+    const auto place = at(p_world);
+    if (!place) return;
+    const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
+    const ImVec2 low{place->x + 8.0f, place->y - extent.y - 4.0f};
+    draw.AddRectFilled({low.x - 4.0f, low.y - 2.0f}, {low.x + extent.x + 4.0f, low.y + extent.y + 2.0f},
+                       paper);
+    draw.AddText(low, ink, text.c_str());
+  }
+};
+
+void ViewPanel::overlays(PanelContext& context, double left, double top) {
+  const Overlay overlay{*ImGui::GetWindowDrawList(), scene_.eye(), viewport_.size(), left, top, pixel_scale_};
+  const Theme& theme = context.theme;
+  const SceneFrame frame = context.model.shown().frame();
+  overlay.draw.PushClipRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), true);
+  // From the view that the run chose to the one that would be chosen now.
+  const StepData& recorded = context.model.recorded();
+  if (recorded.record->hasView() && frame.record.hasView()) {
+    const ChosenView &then = *recorded.record->chosen(), &now = *frame.record.chosen();
+    if (!then.T_world_camera.isApprox(now.T_world_camera)) {
+      overlay.frustum(viewCamera(recorded.frame()), then.T_world_camera, packed(theme.faint));
+      overlay.arrow(then.T_world_camera.translation(), now.T_world_camera.translation(),
+                    packed(theme.accent));
+      overlay.text(now.T_world_camera.translation(), "now first", packed(theme.ink),
+                   packed(theme.panel, 0.85));
+    }
+  }
+  if (const auto view = context.model.selected_view) {
+    if (const auto pose = poseOfView(frame, *view))
+      overlay.frustum(viewCamera(frame), *pose, packed(theme.accent));
+  }
+  for (const Eigen::Vector3d& end : measured_)
+    if (const auto at = overlay.at(end)) overlay.draw.AddCircleFilled(*at, 4.0f, packed(theme.chosen));
+  if (measured_.size() == 2) {
+    overlay.line(measured_[0], measured_[1], packed(theme.chosen), 2.0f);
+    overlay.text(0.5 * (measured_[0] + measured_[1]), lengthText((measured_[1] - measured_[0]).norm()),
+                 packed(theme.ink), packed(theme.panel, 0.9));
+  } else if (measuring_) {
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    overlay.draw.AddText({low.x + 12.0f, high.y - 2.0f * ImGui::GetFontSize()}, packed(theme.accent),
+                         measured_.empty() ? "measuring: click the first point" : "click the second point");
+  }
+  overlay.draw.PopClipRect();
 }
 
 void ViewPanel::inset(PanelContext& context, double right, double top) {
@@ -225,10 +331,12 @@ void ViewPanel::inset(PanelContext& context, double right, double top) {
   const ImVec2 low{static_cast<float>(right - width - 10.0), static_cast<float>(top + 10.0)};
   const ImVec2 high{static_cast<float>(right - 10.0), static_cast<float>(top + 10.0 + height)};
   ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float line = ImGui::GetFontSize();
+  draw.AddRectFilled(low, {high.x, high.y + line + 6.0f}, packed(context.theme.panel, 0.9));
   draw.AddImage(textureId(inset.texture.handle()), low, high);
-  draw.AddRect(low, high, packed(context.theme.chosen), 0.0f, 0, 2.0f);
-  const std::string title = "what view " + std::to_string(*view) + " is predicted to see";
-  draw.AddText({low.x, high.y + 2.0f}, packed(context.theme.ink), title.c_str());
+  draw.AddRect(low, {high.x, high.y + line + 6.0f}, packed(context.theme.chosen), 0.0f, 0, 2.0f);
+  const std::string title = "view " + std::to_string(*view) + ": what it is predicted to see";
+  draw.AddText({low.x + 5.0f, high.y + 3.0f}, packed(context.theme.ink), title.c_str());
   context.widgets.note("view/inset", {low.x, low.y, high.x, high.y, true});
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/gpu/gl_context.h"
 #include "viewer/panels/panel.h"
+#include "viewer/pick.h"
 #include "viewer/viewport.h"
 
 namespace vantage {
@@ -29,13 +30,24 @@ class ViewPanel {
   /// Looks along an axis, z upward: 0 from the front (-y), 1 from the right (+x), 2 from above.
   void lookAlong(PanelContext& context, int side);
   void setEye(const Eye& eye);
+  /// Two clicks measure a distance while it is on.
+  bool measuring() const { return measuring_; }
+  void toggleMeasuring();
+  /// What is under the mouse.
+  const std::optional<Picked>& hovered() const { return hovered_; }
   /// Looks through the explained view.
   void lookThroughView(PanelContext& context);
   void orbitBy(double left_rad, double up_rad);
   void zoomBy(double factor);
 
  private:
+  /// Draws in the view's own pixels over the picture.
+  struct Overlay;
+
   void mouse(PanelContext& context, double left, double top);
+  void hover(PanelContext& context, const Eigen::Vector2d& at_px);
+  void click(PanelContext& context);
+  void lookAt(const Eigen::Vector3d& p_world);
   void overlays(PanelContext& context, double left, double top);
   void inset(PanelContext& context, double right, double top);
 
@@ -48,6 +60,11 @@ class ViewPanel {
   Rgb arranged_paper_;
   double arranged_scale_ = 0.0;
   std::string problem_;
+  Picker picker_;
+  std::optional<Picked> hovered_;
+  Eigen::Vector2d hovered_at_ = Eigen::Vector2d::Constant(-1.0);
+  bool measuring_ = false;
+  std::vector<Eigen::Vector3d> measured_;  ///< none, one end, or both
   Eigen::Vector2d pressed_at_ = Eigen::Vector2d::Zero();
   struct Inset;
   std::unique_ptr<Inset> inset_;

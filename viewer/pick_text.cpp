@@ -1,0 +1,92 @@
+#include "viewer/pick_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "viewer/captions.h"
+
+namespace vantage {
+namespace {
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  std::array<char, 256> text;
+  std::snprintf(text.data(), text.size(), pattern, values...);
+  return text.data();
+}
+
+std::string nameOf(VoxelState state) {
+  return state == VoxelState::Occupied ? "occupied" : state == VoxelState::Free ? "free" : "unknown";
+}
+
+std::string placeText(const Eigen::Vector3d& p) {
+  return format("(%.3f, %.3f, %.3f) m", p.x(), p.y(), p.z());
+}
+
+std::string viewText(const Picked& picked, const StepData& step, const std::vector<CandidateRow>& rows) {
+  const auto row =
+      std::ranges::find_if(rows, [&](const CandidateRow& r) { return !r.pending() && r.id == picked.id; });
+  std::string text = "view " + std::to_string(picked.id);
+  if (row == rows.end()) return text + " at " + placeText(picked.p_world);
+  if (row->rank) text += ", rank " + std::to_string(*row->rank);
+  text += ": " + verdictWord(*row) + "\n";
+  if (step.record->utilities)
+    return text + format("utility %.4f, unknown %.0f, occupied %.0f, distance factor %.2f", row->score,
+                         row->unknown, row->occupied, row->distance_factor);
+  text += "gain " + grouped(std::llround(row->score)) + " rays";
+  if (row->segment > 0) text += format("; segment %u, saliency %.3f", row->segment, row->saliency);
+  return text;
+}
+
+std::string contourText(const Picked& picked, const StepData& step) {
+  const ContourPoint& point = step.record->contours->points[picked.id];
+  std::string text = "contour point " + std::to_string(picked.id) + " at " + placeText(point.position_m);
+  if (step.record->point_labels && picked.id < step.record->point_labels->size())
+    text += ", of segment " + std::to_string((*step.record->point_labels)[picked.id]);
+  return text;
+}
+
+std::string segmentText(const Picked& picked, const StepData& step) {
+  const auto& saliency = step.record->saliency;
+  if (!saliency || picked.id == 0 || picked.id > saliency->segments.size()) return "";
+  const Segment& s = saliency->segments[picked.id - 1];
+  return format("segment %u, %u points, saliency %.3f = F %.3f x d_min/d_max %.3f\n", s.label, s.points,
+                s.saliency, s.isolation, s.roundness) +
+         format("d_min %.1f cm, d_max %.1f cm, radius %.1f cm\n", 100.0 * s.extent_m[2],
+                100.0 * s.extent_m[0], 100.0 * s.radius_m);
+}
+
+std::string voxelText(const Picked& picked, const StepData& step) {
+  const Eigen::Vector3i& v = picked.voxel;
+  std::string text = format("voxel %d, %d, %d: ", v.x(), v.y(), v.z()) + nameOf(picked.state);
+  if (step.volume && !step.volume->voxels().empty() && step.volume->geometry().contains(v)) {
+    const std::size_t index = step.volume->geometry().index(v);
+    const TsdfVoxel voxel = step.volume->voxels()[index];
+    text += voxel.weight > 0 ? format("; tsdf %+.3f, weight %d", voxel.distance(), int(voxel.weight))
+                             : "; never observed";
+  } else if (step.octree && step.octree->geometry().contains(v)) {
+    const auto log_odds = step.octree->logOdds(v);
+    text += log_odds ? format("; occupancy %.3f", 1.0 / (1.0 + std::exp(-*log_odds))) : "; not stored";
+  }
+  return text + "\nat " + placeText(picked.p_world);
+}
+
+}  // namespace
+
+std::string textOf(const Picked& picked, const StepData& step, const std::vector<CandidateRow>& rows) {
+  switch (picked.kind) {
+    case PickedKind::Frustum:
+      return viewText(picked, step, rows);
+    case PickedKind::ContourPoint:
+      return contourText(picked, step);
+    case PickedKind::Segment:
+      return segmentText(picked, step) + voxelText(picked, step);
+    case PickedKind::Voxel:
+      return voxelText(picked, step);
+  }
+  return "";
+}
+
+}  // namespace vantage
