@@ -190,4 +190,15 @@ std::optional<std::size_t> CandidateTable::placeOf(std::uint32_t id) {
   return std::nullopt;
 }
 
+std::optional<std::uint32_t> CandidateTable::neighbour(std::optional<std::uint32_t> id, int by) {
+  std::vector<std::uint32_t> ids;
+  for (const std::uint32_t index : listed())
+    if (!rows_[index].pending()) ids.push_back(rows_[index].id);
+  if (ids.empty()) return std::nullopt;
+  const auto at = id ? std::ranges::find(ids, *id) : ids.end();
+  if (at == ids.end()) return ids.front();
+  const std::ptrdiff_t place = std::clamp<std::ptrdiff_t>(at - ids.begin() + by, 0, std::ssize(ids) - 1);
+  return ids[place];
+}
+
 }  // namespace vantage

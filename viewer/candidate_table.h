@@ -73,6 +73,9 @@ class CandidateTable {
   const CandidateRow* find(std::uint32_t id) const;
   /// Its place in listed(); empty if it is not listed.
   std::optional<std::size_t> placeOf(std::uint32_t id);
+  /// The view that is listed `by` places after another one, or before it if negative, pending segments not
+  /// counted, at most to the end; the first one listed if it is not listed. Empty if no view is listed.
+  std::optional<std::uint32_t> neighbour(std::optional<std::uint32_t> id, int by);
   /// Differs whenever rows() do.
   std::uint64_t revision() const { return revision_; }
 

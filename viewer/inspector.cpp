@@ -56,6 +56,7 @@ struct Inspector::State {
   InspectorPorts ports;
   Preferences preferences;
   Widgets widgets;
+  CandidateState candidates;
   Scene scene;
   InspectorModel model;
   ViewPanel view;
@@ -121,13 +122,18 @@ WindowActions Inspector::State::actions() {
   };
   a.measure = [this] { view.toggleMeasuring(); };
   a.measuring = [this] { return view.measuring(); };
+  a.select_view = [this](int by) {
+    candidates.table.show(model.recorded(), model.shown());
+    if (const auto view = candidates.table.neighbour(model.explainedView(), by)) model.selected_view = view;
+  };
   a.orbit = [this](double left_rad, double up_rad) { view.orbitBy(left_rad, up_rad); };
   a.zoom = [this](double factor) { view.zoomBy(factor); };
   return a;
 }
 
 PanelContext Inspector::State::panelContext() {
-  return {model, preferences, scene, widgets, commands.list(), themeOf(preferences.theme), ports.copy};
+  return {model,     preferences, scene, widgets, candidates, commands.list(), themeOf(preferences.theme),
+          ports.copy};
 }
 
 Layout Inspector::State::layout() const {

@@ -151,6 +151,10 @@ void InspectorCommands::addWhatIf() {
   }).enabled = [this] { return model_.whatIf().edits().anyChanged(); };
   add("what-if.cancel", "What-if", "Cancel what runs in the background", {Key::Period, true},
       [this] { model_.whatIf().cancel(); });
+  add("selection.next", "What-if", "Select the next view of the table", {Key::Down},
+      [this] { actions_.select_view(+1); });
+  add("selection.previous", "What-if", "Select the view before it", {Key::Up},
+      [this] { actions_.select_view(-1); });
   add("selection.clear", "What-if", "Select the chosen view", {keyOf('C')},
       [this] { model_.selected_view.reset(); });
 }

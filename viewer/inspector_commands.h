@@ -13,6 +13,7 @@ struct WindowActions {
       look_through_view, add_bookmark, measure;
   std::function<bool()> measuring;
   std::function<void(int)> look_along, bookmark;
+  std::function<void(int)> select_view;  ///< by so many rows of the table
   std::function<void(double, double)> orbit;
   std::function<void(double)> zoom;
 };

@@ -163,5 +163,25 @@ TEST(CandidateTable, FindsViewsInTheListedOrder) {
   EXPECT_FALSE(table.placeOf(id));
 }
 
+TEST(CandidateTable, StepsFromViewToViewPastPendingSegments) {
+  const test::SyntheticRun run = test::makeSyntheticRun();
+  const StepData data = dataOf(run);
+  CandidateTable table;
+  EXPECT_FALSE(table.neighbour({}, +1));
+  table.show(data, data);
+  std::vector<std::uint32_t> ids;
+  for (const std::uint32_t index : table.listed())
+    if (!table.rows()[index].pending()) ids.push_back(table.rows()[index].id);
+  ASSERT_LT(ids.size(), table.listed().size()) << "no segment is pending";
+  std::optional<std::uint32_t> at = table.neighbour({}, +1);
+  for (const std::uint32_t id : ids) {
+    ASSERT_EQ(at, id);
+    at = table.neighbour(at, +1);
+  }
+  EXPECT_EQ(at, ids.back());
+  EXPECT_EQ(table.neighbour(ids[2], -2), ids[0]);
+  EXPECT_EQ(table.neighbour(ids[1], -5), ids[0]);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -6,6 +6,7 @@
 
 #include "viewer/commands.h"
 #include "viewer/inspector_model.h"
+#include "viewer/panels/candidate_state.h"
 #include "viewer/panels/theme.h"
 #include "viewer/panels/widgets.h"
 #include "viewer/preferences.h"
@@ -20,6 +21,7 @@ struct PanelContext {
   Preferences& preferences;  ///< the view (layers, looks, clip box) and everything else that is kept
   Scene& scene;              ///< legends; nothing in it is changed by panels
   Widgets& widgets;
+  CandidateState& candidates;
   const Commands& commands;
   const Theme& theme;
   std::function<void(const std::string&)> copy;  ///< to the clipboard

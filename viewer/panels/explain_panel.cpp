@@ -1,0 +1,195 @@
+// Why one view was chosen or not: its factors beside those of the view that it is measured against.
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "viewer/captions.h"
+#include "viewer/explanation.h"
+#include "viewer/panels/panel.h"
+#include "viewer/panels/plot.h"
+
+namespace vantage {
+namespace {
+
+/// What the two views are called.
+struct Names {
+  std::string view, other;
+};
+
+Names namesOf(const Explanation& e) {
+  const std::string other = e.other ? std::to_string(*e.other) : "";
+  return {"view " + std::to_string(e.id) + (e.is_winner ? ", chosen" : ""),
+          !e.other ? "" : "view " + other + (e.is_winner ? ", the next best" : ", chosen")};
+}
+
+/// The view is filled, what it is measured against is outlined and hatched.
+void bar(const PanelContext& context, ImVec2 low, ImVec2 high, double share, bool is_view) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const Theme& theme = context.theme;
+  const Rgb color = is_view ? theme.accent : theme.chosen;
+  const ImVec2 end{low.x + std::max(1.0f, static_cast<float>(share) * (high.x - low.x)), high.y};
+  draw.AddRectFilled(low, high, packed(theme.ink, 0.08));
+  draw.AddRectFilled(low, end, packed(color, is_view ? 0.9 : 0.25));
+  if (is_view) return;
+  const float height = high.y - low.y, gap = height * 0.8f;
+  draw.PushClipRect(low, end, true);
+  for (float x = low.x - height; x < end.x; x += gap)
+    draw.AddLine({x, high.y}, {x + height, low.y}, packed(color, 0.8), 1.0f);
+  draw.PopClipRect();
+  draw.AddRect(low, end, packed(color));
+}
+
+class Bars {
+ public:
+  Bars(PanelContext& context, const Explanation& explanation) : context_(context), explanation_(explanation) {
+    const float room = ImGui::GetContentRegionAvail().x;
+    for (const ViewFactor& factor : explanation.factors)
+      for (const auto& reading : {factor.view, factor.other})
+        if (reading && reading->share) text_ = std::max(text_, ImGui::CalcTextSize(reading->text.c_str()).x);
+    width_ = std::max(room - text_ - ImGui::GetStyle().ItemSpacing.x, room * 0.3f);
+  }
+
+  void draw() {
+    legend();
+    for (const ViewFactor& factor : explanation_.factors)
+      if (hasBar(factor)) barsOf(factor);
+    facts();
+  }
+
+ private:
+  static bool hasBar(const ViewFactor& factor) {
+    return (factor.view && factor.view->share) || (factor.other && factor.other->share);
+  }
+
+  void legend() {
+    const Names names = namesOf(explanation_);
+    const auto entry = [&](const std::string& name, bool is_view) {
+      const ImVec2 at = ImGui::GetCursorScreenPos();
+      const float size = ImGui::GetFontSize();
+      bar(context_, {at.x, at.y + 0.2f * size}, {at.x + 1.5f * size, at.y + 0.9f * size}, 1.0, is_view);
+      ImGui::Dummy({1.5f * size, size});
+      ImGui::SameLine();
+      ImGui::TextUnformatted(name.c_str());
+    };
+    entry(names.view, true);
+    if (names.other.empty()) return;
+    ImGui::SameLine(0.0f, ImGui::GetFontSize());
+    entry(names.other, false);
+  }
+
+  void barsOf(const ViewFactor& factor) {
+    ImGui::TextUnformatted(factor.name.c_str());
+    context_.widgets.note("explain/factor " + factor.name);
+    tip(factor.about);
+    if (!factor.limit.empty()) {
+      ImGui::SameLine();
+      ImGui::TextDisabled("%s", factor.limit.c_str());
+    }
+    const ImVec2 from = ImGui::GetCursorScreenPos();
+    line(factor.view, true);
+    if (explanation_.other) line(factor.other, false);
+    if (!factor.limit_share) return;
+    const float x = from.x + static_cast<float>(*factor.limit_share) * width_;
+    const float bottom = ImGui::GetCursorScreenPos().y - ImGui::GetStyle().ItemSpacing.y;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddLine({x, from.y - 2.0f}, {x, bottom + 1.0f}, packed(context_.theme.ink), 2.0f);
+    draw.AddTriangleFilled({x - 4.0f, from.y - 4.0f}, {x + 4.0f, from.y - 4.0f}, {x, from.y + 2.0f},
+                           packed(context_.theme.ink));
+  }
+
+  void line(const std::optional<FactorReading>& reading, bool is_view) {
+    const float height = ImGui::GetFontSize() * 0.8f;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 2.0f});
+    if (reading) {
+      const ImVec2 low{at.x, at.y + 2.0f};
+      bar(context_, low, {at.x + width_, low.y + height}, reading->share.value_or(0.0), is_view);
+    }
+    ImGui::Dummy({width_, ImGui::GetFontSize()});
+    ImGui::SameLine(0.0f, ImGui::GetStyle().ItemSpacing.x);
+    if (reading)
+      ImGui::TextUnformatted(reading->text.c_str());
+    else
+      ImGui::TextDisabled("–");
+    ImGui::PopStyleVar();
+  }
+
+  /// What has no scale, side by side.
+  void facts() {
+    if (!ImGui::BeginTable("facts", explanation_.other ? 3 : 2,
+                           ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_BordersInnerH))
+      return;
+    for (const ViewFactor& factor : explanation_.factors) {
+      if (hasBar(factor) || (!factor.view && !factor.other)) continue;
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(factor.name.c_str());
+      tip(factor.about);
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(factor.view ? factor.view->text.c_str() : "–");
+      if (!explanation_.other) continue;
+      ImGui::TableNextColumn();
+      ImGui::TextDisabled("%s", factor.other ? factor.other->text.c_str() : "–");
+    }
+    ImGui::EndTable();
+  }
+
+  PanelContext& context_;
+  const Explanation& explanation_;
+  float text_ = 0.0f, width_ = 0.0f;  ///< of readings and of bars, pixels
+};
+
+/// Layers that show what a view counts.
+std::vector<Layer> countedLayers(const PanelContext& context) {
+  if (!onOctree(context.model.shown().frame())) return {Layer::HitVoxels, Layer::Occluders};
+  return {Layer::HitVoxels, Layer::Occluders, Layer::CoarseRays, Layer::RefinedRays};
+}
+
+void buttons(PanelContext& context, const Explanation& e) {
+  const Command* through = context.commands.find("view.through");
+  if (through && context.widgets.button("explain/look through", "look through it",
+                                        through->enabled() && e.row.has_value(),
+                                        through->title + "  " + textOf(through->keys)))
+    through->run();
+  ImGui::SameLine();
+  LayerSet& layers = context.preferences.view.layers;
+  const std::vector<Layer> counted = countedLayers(context);
+  const bool on = std::ranges::all_of(counted, [&](Layer layer) { return layers.has(layer); });
+  if (context.widgets.button("explain/show counted", on ? "hide what it counts" : "show what it counts",
+                             e.row.has_value(), "voxels on which its rays end, and what is in their way"))
+    for (const Layer layer : counted) layers.set(layer, !on);
+  if (e.is_winner || !e.other) return;
+  if (context.widgets.button("explain/select winner", "select the chosen view", true,
+                             "the one that it is measured against"))
+    context.model.selected_view = *e.other;
+}
+
+/// Distinct voxels that the view counts, asked for once.
+void countedLine(PanelContext& context, const Explanation& e) {
+  if (!e.row) return;
+  CandidateState& state = context.candidates;
+  const std::uint64_t revision = state.table.revision();
+  if (!state.counted || state.counted->revision != revision || state.counted->id != e.id)
+    state.counted = {revision, e.id, countedVoxels(context.model.shown().frame(), *e.row)};
+  ImGui::TextDisabled("It sees %s unknown voxels that count.", grouped(state.counted->voxels).c_str());
+  context.widgets.note("explain/voxels");
+}
+
+}  // namespace
+
+void explainPanel(PanelContext& context) {
+  const StepData& shown = context.model.shown();
+  const auto id = context.model.explainedView();
+  if (shown.empty() || !id) {
+    ImGui::TextDisabled(shown.empty() ? "No step is open." : "No view was chosen; select one to see why.");
+    return;
+  }
+  context.candidates.table.show(context.model.recorded(), shown);
+  const Explanation explanation = explain(shown.frame(), context.candidates.table.rows(), *id);
+  ImGui::TextWrapped("%s", explanation.sentence.c_str());
+  context.widgets.note("explain/sentence");
+  buttons(context, explanation);
+  Bars(context, explanation).draw();
+  countedLine(context, explanation);
+}
+
+}  // namespace vantage

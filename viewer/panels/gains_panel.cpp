@@ -1,0 +1,243 @@
+// Predicted against realised gain: a point a step, on the diagonal if the prediction was right.
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "viewer/captions.h"
+#include "viewer/panels/panel.h"
+#include "viewer/panels/plot.h"
+#include "viewer/view_words.h"
+
+namespace vantage {
+namespace {
+
+/// One step in the scatter.
+struct GainPoint {
+  int index = 0;  ///< in the timeline
+  const StepSummary* step = nullptr;
+  double predicted = 0.0, realised = 0.0;  ///< voxels
+};
+
+std::vector<GainPoint> pointsOf(const std::vector<StepSummary>& steps) {
+  std::vector<GainPoint> points;
+  for (int i = 0; i < static_cast<int>(steps.size()); ++i) {
+    const StepSummary& step = steps[i];
+    if (step.gain_voxels && step.realised_voxels)
+      points.push_back(
+          {i, &step, static_cast<double>(*step.gain_voxels), static_cast<double>(*step.realised_voxels)});
+  }
+  return points;
+}
+
+/// Planners of a run in the order of their names; their place gives colour and shape.
+std::vector<std::string> plannersOf(const std::vector<StepSummary>& steps) {
+  std::vector<std::string> planners;
+  for (const StepSummary& step : steps)
+    if (!step.closing && std::ranges::find(planners, step.planner) == planners.end())
+      planners.push_back(step.planner);
+  std::ranges::sort(planners);
+  return planners;
+}
+
+struct Mark {
+  Rgb color;
+  int corners;  ///< 0 = round
+};
+
+Mark markOf(const Theme& theme, const std::vector<std::string>& planners, const std::string& planner) {
+  const std::size_t place = std::ranges::find(planners, planner) - planners.begin();
+  const Mark marks[] = {{theme.third_curve, 0}, {theme.curve, 4}, {theme.second_curve, 3}, {theme.chosen, 6}};
+  return marks[place % std::size(marks)];
+}
+
+void drawMark(ImVec2 at, const Mark& mark, float radius, bool filled) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const int corners = mark.corners > 0 ? mark.corners : 16;
+  if (filled) draw.AddNgonFilled(at, radius, packed(mark.color), corners);
+  draw.AddNgon(at, radius, packed(mark.color), corners, 2.0f);
+}
+
+std::string nameOf(const StepSummary& step) {
+  return "step " + std::to_string(step.step);
+}
+
+std::string ratioText(const GainPoint& point) {
+  return point.predicted > 0.0 ? rounded(100.0 * point.realised / point.predicted, 3) + " %"
+                               : "nothing predicted";
+}
+
+class Scatter {
+ public:
+  Scatter(PanelContext& context, std::vector<GainPoint> points)
+      : context_(context), points_(std::move(points)), planners_(plannersOf(context.model.steps())) {
+    for (const GainPoint& p : points_) most_ = std::max({most_, p.predicted, p.realised});
+    ticks_ = ticks(most_ > 0.0 ? most_ : 1.0, 4);
+    most_ = ticks_.back();
+  }
+
+  void draw() {
+    layOut();
+    axes();
+    diagonal();
+    const GainPoint* hovered = nearest();
+    for (const GainPoint& p : points_) point(p, hovered == &p);
+    if (!hovered) return;
+    describe(*hovered);
+    ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+    if (clicked_) context_.model.goToStep(hovered->index);
+  }
+
+  void legend() {
+    if (planners_.size() < 2) return;
+    for (const std::string& planner : planners_) {
+      const ImVec2 at = ImGui::GetCursorScreenPos();
+      const float size = ImGui::GetFontSize();
+      drawMark({at.x + size / 2, at.y + size / 2}, markOf(context_.theme, planners_, planner), size * 0.32f,
+               true);
+      ImGui::Dummy({size, size});
+      ImGui::SameLine();
+      ImGui::TextUnformatted(planner.empty() ? "planner" : (planner + " planner").c_str());
+    }
+  }
+
+ private:
+  float radius() const { return ImGui::GetFontSize() * 0.38f; }
+
+  /// A square as large as fits, with room for the axes.
+  void layOut() {
+    const float em = ImGui::GetFontSize();
+    float widest = 0.0f;
+    for (const double tick : ticks_)
+      widest = std::max(widest, ImGui::CalcTextSize(shortNumber(tick).c_str()).x);
+    const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
+    const float left = widest + 0.7f * em, top = 1.6f * em, bottom = 2.8f * em, right = 1.2f * em;
+    const float side = std::max(6.0f * em, std::min(room.x - left - right, room.y - top - bottom));
+    area_ = {{at.x + left, at.y + top}, {at.x + left + side, at.y + top + side}, 0.0, most_, 0.0, most_};
+    ImGui::InvisibleButton("scatter", {left + side + right, top + side + bottom});
+    context_.widgets.note("gains/plot");
+    over_ = ImGui::IsItemHovered();
+    clicked_ = ImGui::IsItemClicked();
+  }
+
+  void axes() {
+    const Theme& theme = context_.theme;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float em = ImGui::GetFontSize();
+    const ImVec2 low = area_.low, high = area_.high;
+    draw.AddRectFilled(low, high, packed(theme.paper));
+    for (const double tick : ticks_) {
+      const ImVec2 x = area_.at(tick, 0.0), y = area_.at(0.0, tick);
+      draw.AddLine({x.x, low.y}, {x.x, high.y}, packed(theme.faint, 0.25));
+      draw.AddLine({low.x, y.y}, {high.x, y.y}, packed(theme.faint, 0.25));
+      const std::string text = shortNumber(tick);
+      const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+      draw.AddText({x.x - size.x / 2, high.y + 0.2f * em}, packed(theme.ink), text.c_str());
+      draw.AddText({low.x - size.x - 0.4f * em, y.y - size.y / 2}, packed(theme.ink), text.c_str());
+    }
+    draw.AddRect(low, high, packed(theme.ink, 0.6));
+    const char *across = "predicted, voxels", *up = "realised, voxels";
+    draw.AddText({(low.x + high.x - ImGui::CalcTextSize(across).x) / 2, high.y + 1.4f * em},
+                 packed(theme.ink), across);
+    draw.AddText({low.x, low.y - 1.4f * em}, packed(theme.ink), up);
+  }
+
+  void diagonal() {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    constexpr int kDashes = 24;
+    for (int i = 0; i < kDashes; i += 2)
+      draw.AddLine(area_.at(most_ * i / kDashes, most_ * i / kDashes),
+                   area_.at(most_ * (i + 1) / kDashes, most_ * (i + 1) / kDashes),
+                   packed(context_.theme.ink, 0.6), 1.5f);
+  }
+
+  /// The point under the mouse.
+  const GainPoint* nearest() const {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const GainPoint* best = nullptr;
+    float best_px = 2.0f * radius();
+    for (const GainPoint& p : points_) {
+      const ImVec2 at = area_.at(p.predicted, p.realised);
+      const float away_px = std::hypot(at.x - mouse.x, at.y - mouse.y);
+      if (over_ && away_px < best_px) {
+        best = &p;
+        best_px = away_px;
+      }
+    }
+    return best;
+  }
+
+  void point(const GainPoint& p, bool hovered) {
+    const Theme& theme = context_.theme;
+    const ImVec2 at = area_.at(p.predicted, p.realised);
+    const float r = radius();
+    drawMark(at, markOf(theme, planners_, p.step->planner), hovered ? 1.3f * r : r, true);
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    if (p.index == context_.model.place().step) draw.AddCircle(at, 1.9f * r, packed(theme.accent), 0, 2.0f);
+    const std::string text = std::to_string(p.step->step);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    const bool at_edge = at.x + r + 4.0f + size.x > area_.high.x;
+    draw.AddText({at_edge ? at.x - r - 4.0f - size.x : at.x + r + 4.0f, at.y - r - size.y * 0.6f},
+                 packed(theme.ink), text.c_str());
+    context_.widgets.note("gains/point " + std::to_string(p.step->step),
+                          {at.x - r, at.y - r, at.x + r, at.y + r, true});
+  }
+
+  void describe(const GainPoint& p) {
+    ImGui::BeginTooltip();
+    ImGui::Text("%s%s", nameOf(*p.step).c_str(),
+                p.step->planner.empty() ? "" : (", " + p.step->planner + " planner").c_str());
+    ImGui::Text("predicted: %s voxels", whole(p.predicted).c_str());
+    ImGui::Text("realised: %s voxels", whole(p.realised).c_str());
+    ImGui::Text("realised / predicted: %s", ratioText(p).c_str());
+    ImGui::EndTooltip();
+  }
+
+  PanelContext& context_;
+  std::vector<GainPoint> points_;
+  std::vector<std::string> planners_;
+  std::vector<double> ticks_;
+  double most_ = 0.0;
+  PlotArea area_;
+  bool over_ = false, clicked_ = false;
+};
+
+/// Steps that have no point, and why.
+void missing(PanelContext& context) {
+  const std::vector<StepSummary>& steps = context.model.steps();
+  for (int i = 0; i < static_cast<int>(steps.size()); ++i) {
+    const StepSummary& step = steps[i];
+    if (step.closing || (step.gain_voxels && step.realised_voxels)) continue;
+    std::string text = nameOf(step) + ": ";
+    if (!step.has_view)
+      text += "no view was chosen";
+    else if (!step.gain_voxels)
+      text += "no prediction in voxels";
+    else
+      text += whole(static_cast<double>(*step.gain_voxels)) + " voxels predicted, realised not yet known";
+    if (context.widgets.button("gains/missing " + std::to_string(step.step), text)) context.model.goToStep(i);
+  }
+}
+
+}  // namespace
+
+void gainsPanel(PanelContext& context) {
+  if (context.model.steps().empty()) {
+    ImGui::TextDisabled("No run is open: its gains appear here.");
+    return;
+  }
+  std::vector<GainPoint> points = pointsOf(context.model.steps());
+  ImGui::TextWrapped(
+      "Unknown voxels that a view was predicted to see, and by how many its region held fewer after the next "
+      "scan.");
+  if (points.empty()) {
+    ImGui::TextDisabled("No step has both yet.");
+  } else {
+    Scatter scatter(context, std::move(points));
+    scatter.draw();
+    scatter.legend();
+  }
+  missing(context);
+}
+
+}  // namespace vantage
