@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/gpu/egl_context.h"
+#include "viewer/inspector.h"
+#include "viewer/inspector_model.h"
+#include "viewer/offscreen_ui.h"
+
+namespace vantage::testing {
+
+/// A window without a display and whoever sits before it.
+struct InspectorDriver {
+  EglContext context;
+  std::string clipboard;
+  Inspector inspector;
+  OffscreenUi ui;
+
+  explicit InspectorDriver(Preferences preferences = {}, int width = 1280, int height = 800)
+      : inspector(context, ports(), std::move(preferences)), ui(context, inspector, width, height) {}
+
+  InspectorModel& model() { return inspector.model(); }
+  WhatIf& whatIf() { return model().whatIf(); }
+  /// Opens a file and waits until everything that follows from it is done.
+  void open(const std::filesystem::path& file) {
+    inspector.open({file});
+    ui.settle();
+  }
+  std::string notices() {
+    std::string text;
+    for (const Notice& notice : model().notices()) text += notice.text + "\n";
+    return text;
+  }
+  /// Pixels of the window that differ from another picture of it.
+  static int differing(const RgbImage& a, const RgbImage& b) {
+    int count = 0;
+    for (int y = 0; y < a.height; ++y)
+      for (int x = 0; x < a.width; ++x) count += a.at(x, y) != b.at(x, y);
+    return count;
+  }
+
+ private:
+  InspectorPorts ports() {
+    InspectorPorts ports;
+    ports.copy = [this](const std::string& text) { clipboard = text; };
+    return ports;
+  }
+};
+
+}  // namespace vantage::testing
