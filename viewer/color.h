@@ -41,6 +41,9 @@ inline constexpr Rgb kObjectBox = rgb(0, 112, 96);
 inline constexpr Rgb kAround = rgb(224, 222, 217);
 inline constexpr Rgb kNode = rgb(60, 78, 104);
 inline constexpr Rgb kUnknownEdge = rgb(190, 110, 0);
+// What a view sees.
+inline constexpr Rgb kLit = rgb(255, 214, 40);
+inline constexpr Rgb kOccluder = rgb(120, 132, 150);
 // Fates of rays.
 inline constexpr Rgb kRayMissed = rgb(170, 174, 180);
 inline constexpr Rgb kRayRefined = rgb(160, 70, 150);

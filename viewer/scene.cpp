@@ -140,6 +140,9 @@ struct Scene::State {
   bool eye_placed = false;
 
   void requireFrame(const char* caller) const;
+  bool rough = false;
+
+  void adjust(Layer layer, const ViewSettings& wanted) const;
   void build(Layer layer, const ViewSettings& wanted, const LayerStyle& base, const SceneTheme& wanted_theme);
   void prepare(const LayerSet& layers, const ViewSettings& wanted, const LayerStyle& base,
                const SceneTheme& wanted_theme);
@@ -149,6 +152,11 @@ struct Scene::State {
 
 void Scene::State::requireFrame(const char* caller) const {
   if (!frame) throw std::logic_error(std::string("Scene::") + caller + "() before setFrame()");
+}
+
+void Scene::State::adjust(Layer layer, const ViewSettings& wanted) const {
+  if (const auto& layer_built = built[static_cast<std::size_t>(layer)])
+    layer_built->looks.apply(wanted.look(layer), isClipped(layer) ? &clip : nullptr, rough);
 }
 
 /// Builds a layer unless it stands, and adjusts it.
@@ -162,11 +170,11 @@ void Scene::State::build(Layer layer, const ViewSettings& wanted, const LayerSty
     built[i].reset();
     LayerContent content = buildLayer(layer, *frame, style);
     applyTheme(content, wanted_theme);
-    PropLooks looks(content.props);
+    PropLooks looks(content);
     built[i].emplace(BuiltLayer{std::move(content), std::move(looks), style, wanted_theme});
     ++times_built[i];
   }
-  built[i]->looks.apply(look, isClipped(layer) ? &clip : nullptr);
+  adjust(layer, wanted);
 }
 
 /// Builds and adjusts all of the layers; the first error is reported after the last layer.
@@ -234,6 +242,7 @@ void Scene::show(const ViewSettings& settings, const Caption& caption, PageStyle
   style.label_px *= unit;
   style.line_scale *= std::max(0.5, unit);
   state_->shown = settings.layers;
+  state_->rough = false;
   state_->prepare(settings.layers, settings, style, {});
 
   state_->page_view = makeRenderer(palette::kPaper);
@@ -294,6 +303,14 @@ void Scene::setEye(const Eye& eye) {
 void Scene::placeEye(const CameraView& camera, double width_to_height) {
   state_->requireFrame("placeEye");
   setEye(eyeFor(*state_->frame, camera, state_->contents(state_->shown), width_to_height));
+}
+
+void Scene::setRough(bool rough) {
+  if (rough == state_->rough) return;
+  state_->rough = rough;
+  for (int i = 0; i < kLayerCount; ++i)
+    if (state_->settings.layers.has(static_cast<Layer>(i)))
+      state_->adjust(static_cast<Layer>(i), state_->settings);
 }
 
 vtkRenderer* Scene::inset(const Eye& eye, const LayerSet& layers) {

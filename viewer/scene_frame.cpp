@@ -40,6 +40,20 @@ Box nodesInBox(const SceneFrame& frame, int level) {
   return {box.min().array() - half_m, box.max().array() + half_m};
 }
 
+Box occupiedBox(const SceneFrame& frame) {
+  constexpr double kSupportMargin_m = 0.04;
+  Box box = frame.header.workspace;
+  if (!box.isEmpty()) box.min().z() -= kSupportMargin_m;
+  return box;
+}
+
+Box slicedBox(const SceneFrame& frame) {
+  const GridGeometry& geometry = frame.states.geometry();
+  if (geometry.count() == 0) return {};
+  const Box& workspace = frame.header.workspace;
+  return workspace.isEmpty() ? geometry.bounds() : geometry.bounds().intersection(workspace);
+}
+
 PinholeCamera viewCamera(const SceneFrame& frame) {
   if (!onOctree(frame)) return frame.header.camera;
   constexpr int kAcross = 1000;  // pixels; only the aperture matters
@@ -47,6 +61,17 @@ PinholeCamera viewCamera(const SceneFrame& frame) {
   const double tan_h = std::tan(sensor.horizontal_fov_rad / 2), tan_v = std::tan(sensor.vertical_fov_rad / 2);
   return cameraFromFov(kAcross, std::max(1, static_cast<int>(std::lround(kAcross * tan_v / tan_h))),
                        sensor.horizontal_fov_rad);
+}
+
+std::optional<Pose> poseOfCandidate(const SceneFrame& frame, std::uint32_t id) {
+  if (frame.record.utilities) {
+    const auto& views = frame.record.utilities->views;
+    const auto found = std::ranges::find(views, id, &ViewUtility::id);
+    return found == views.end() ? std::nullopt : std::optional(found->T_world_camera);
+  }
+  const auto rolls = static_cast<std::uint32_t>(std::max(1, frame.header.contour_config.views.rolls));
+  if (!frame.record.positions || id / rolls >= frame.record.positions->size()) return std::nullopt;
+  return candidatePose(frame, id);
 }
 
 Pose candidatePose(const SceneFrame& frame, std::uint32_t id) {
@@ -75,6 +100,20 @@ std::vector<RankedPosition> rankedPositions(const SceneFrame& frame, const Segme
         {candidatePose(frame, score.id), score.gain, score.id, score.reachability, score.executed_before});
   }
   return ranked;
+}
+
+std::vector<RankedPosition> drawnViews(const SceneFrame& frame, const LayerStyle& style) {
+  std::vector<RankedPosition> ranked, drawn;
+  if (const SegmentSearch* search = shownSearch(frame.record))
+    ranked = rankedPositions(frame, *search);
+  else if (frame.record.utilities)
+    ranked = rankedViews(*frame.record.utilities);
+  int reachable = 0, unreachable = 0;
+  for (const RankedPosition& view : ranked) {
+    if (view.unreachable() ? unreachable++ < style.unreachable_views : reachable++ < style.ranked_views)
+      drawn.push_back(view);
+  }
+  return drawn;
 }
 
 std::vector<RankedPosition> rankedViews(const UtilitySearch& search) {

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/exploration/step_record.h"
 #include "core/volume/state_pyramid.h"
 #include "io/run_file.h"
+#include "viewer/view_settings.h"
 
 namespace vantage {
 
@@ -38,6 +40,12 @@ int coarseLevels(const SceneFrame& frame);
 /// it, a finest voxel if its centre is inside (D-A8). \pre onOctree()
 Box nodesInBox(const SceneFrame& frame, int level);
 
+/// Where occupied voxels are drawn: the workspace and a little under it, its floor. Empty without one.
+Box occupiedBox(const SceneFrame& frame);
+
+/// Where slices are drawn: the part of the grid in the workspace.
+Box slicedBox(const SceneFrame& frame);
+
 /// What a candidate of the step sees: the planner's ray sensor on the octree, else the camera.
 PinholeCamera viewCamera(const SceneFrame& frame);
 
@@ -60,12 +68,19 @@ struct RankedPosition {
   bool unreachable() const { return isUnreachable(reachability); }
 };
 
+/// Pose of any candidate of the step, of whichever planner; nothing if there is no such candidate.
+std::optional<Pose> poseOfCandidate(const SceneFrame& frame, std::uint32_t id);
+
 /// Positions of a search by decreasing gain, each once with its best roll; those below the gain threshold are
 /// left out.
 std::vector<RankedPosition> rankedPositions(const SceneFrame& frame, const SegmentSearch& search);
 
 /// Views by decreasing utility.
 std::vector<RankedPosition> rankedViews(const UtilitySearch& search);
+
+/// The ranked views of the step's shown search or utilities that are drawn: style.ranked_views that can be
+/// reached, and style.unreachable_views better ones that cannot.
+std::vector<RankedPosition> drawnViews(const SceneFrame& frame, const LayerStyle& style);
 
 /// Pose of a candidate view; identity if its position is not in the record.
 Pose candidatePose(const SceneFrame& frame, std::uint32_t id);

@@ -31,7 +31,8 @@ enum class Layer : std::uint8_t {
   ContourPoints,  ///< with their normals
   Candidates,     ///< positions of all candidate views
   UtilitySphere,  ///< utility of the hierarchical planner's candidates, on their sphere
-  HitVoxels,      ///< nodes and voxels on which the rays of a view end
+  HitVoxels,      ///< what a view's score counts: unknown voxels; on the octree also known ones and nodes
+  Occluders,      ///< what ends the rays of a view and is not counted as unknown, hatched
   CoarseRays,     ///< rays of a view at the level where tracing starts
   RefinedRays,    ///< their finer rays, in refined nodes
   RankedViews,    ///< frusta of the best views: of the searched segment, or by utility
@@ -40,7 +41,7 @@ enum class Layer : std::uint8_t {
   Sensor,      ///< the sensor where the last scan was taken
   DepthImage,  ///< last depth image, beside the scene
 };
-inline constexpr int kLayerCount = 24;
+inline constexpr int kLayerCount = 25;
 
 /// Name of a layer in files and on the command line, e.g. "contour-points".
 std::string_view layerName(Layer layer);

@@ -24,9 +24,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kSmallest = 16;
+constexpr double kSmallShare = 0.5;
 constexpr int kSamples = 4;                                    // what the software driver offers at most
 constexpr double kTurnPerHeight_rad = 3.14159265358979323846;  // a drag across the picture turns by half
 constexpr double kZoomPerHeight = 8.0, kZoomPerNotch = 1.15;
+
+double secondsSince(Clock::time_point from) {
+  return std::chrono::duration<double>(Clock::now() - from).count();
+}
 
 }  // namespace
 
@@ -37,20 +42,27 @@ struct Viewport::State {
   PictureSize size{640, 400};
   unsigned texture = 0;
   std::uint64_t frames = 0;
-  bool dirty = true, rough = false, moving = false;
+  bool dirty = true;    ///< something changed since the last picture
+  bool rough = true;    ///< the last picture is a rough one
+  bool moving = false;  ///< within kSettle_s after moved_at
   Clock::time_point moved_at = {};
+  std::optional<double> full_s = {};  ///< what the last full picture took
+  double rough_share = kSmallShare;   ///< resolution of rough pictures
   std::optional<Drag> drag = {};
   Eigen::Vector2d cursor = Eigen::Vector2d::Zero();
 
-  bool inMotion() const {
-    return moving && std::chrono::duration<double>(Clock::now() - moved_at).count() < kSettle_s;
-  }
-  void setEye(const Eye& eye) {
-    scene.setEye(eye);
+  double sinceMove_s() const { return secondsSince(moved_at); }
+  bool wantsRough() const { return moving && sinceMove_s() < kSettle_s && full_s.value_or(1.0) > kQuick_s; }
+  void touch() {
     moving = true;
     moved_at = Clock::now();
     dirty = true;
   }
+  void setEye(const Eye& eye) {
+    scene.setEye(eye);
+    touch();
+  }
+  void drawView(bool as_rough);
   void draw(std::span<vtkRenderer* const> wanted);
   void keepPicture();
 };
@@ -71,6 +83,28 @@ void Viewport::State::draw(std::span<vtkRenderer* const> wanted) {
     renderer->GetLights()->Modified();
   }
   window->Render();
+}
+
+/// Rough pictures are not smoothed, smaller where even that is slow, and lack the scene's fine parts.
+void Viewport::State::drawView(bool as_rough) {
+  const auto began = Clock::now();
+  const double share = as_rough ? rough_share : 1.0;
+  window->SetMultiSamples(as_rough ? 0 : kSamples);
+  window->SetSize(std::max(kSmallest, static_cast<int>(std::lround(share * size.width))),
+                  std::max(kSmallest, static_cast<int>(std::lround(share * size.height))));
+  scene.setRough(as_rough);
+  vtkRenderer* const view = scene.view();
+  draw({&view, 1});
+  keepPicture();
+  glFinish();
+  const double took_s = secondsSince(began);
+  if (!as_rough)
+    full_s = took_s;
+  else if (share == 1.0 && took_s > kQuick_s)
+    rough_share = kSmallShare;
+  else if (share < 1.0 && took_s < kQuick_s * share * share)
+    rough_share = 1.0;
+  rough = as_rough;
 }
 
 /// Copies the window's picture into the texture.
@@ -114,7 +148,7 @@ void Viewport::resize(int width, int height) {
                            std::clamp(height, kSmallest, kLargestPicture)};
   if (wanted.width == state_->size.width && wanted.height == state_->size.height) return;
   state_->size = wanted;
-  state_->dirty = true;
+  state_->touch();
 }
 
 PictureSize Viewport::size() const {
@@ -122,18 +156,13 @@ PictureSize Viewport::size() const {
 }
 
 void Viewport::requestRender() {
-  state_->dirty = true;
+  state_->touch();
 }
 
 bool Viewport::render() {
   if (nextRender_s() != 0.0) return false;
   state_->context.makeCurrent();
-  const bool rough = state_->inMotion();
-  state_->window->SetSize(state_->size.width, state_->size.height);
-  vtkRenderer* const view = state_->scene.view();
-  state_->draw({&view, 1});
-  state_->keepPicture();
-  state_->rough = rough;
+  state_->drawView(state_->wantsRough());
   state_->dirty = false;
   ++state_->frames;
   return true;
@@ -142,8 +171,7 @@ bool Viewport::render() {
 std::optional<double> Viewport::nextRender_s() const {
   if (state_->dirty) return 0.0;
   if (!state_->rough) return std::nullopt;
-  const double since = std::chrono::duration<double>(Clock::now() - state_->moved_at).count();
-  return state_->moving ? std::max(0.0, kSettle_s - since) : 0.0;
+  return state_->moving ? std::max(0.0, kSettle_s - state_->sinceMove_s()) : 0.0;
 }
 
 unsigned Viewport::texture() const {
@@ -195,7 +223,12 @@ void Viewport::setMoving(bool moving) {
   if (moving) state_->moved_at = Clock::now();
 }
 
+bool Viewport::settled() const {
+  return !state_->dirty && !state_->rough;
+}
+
 RgbImage Viewport::screenshot() {
+  state_->scene.setRough(false);
   vtkRenderer* const view = state_->scene.view();
   return picture({&view, 1}, state_->size.width, state_->size.height);
 }
@@ -205,6 +238,7 @@ RgbImage Viewport::picture(std::span<vtkRenderer* const> renderers, int width, i
   requireInRange("picture height", height, kSmallest, kLargestPicture);
   state_->context.makeCurrent();
   GlWindow& window = *state_->window;
+  window.SetMultiSamples(kSamples);
   window.SetSize(width, height);
   state_->draw(renderers);
   return readPicture(window);

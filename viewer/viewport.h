@@ -18,11 +18,12 @@ namespace vantage {
 enum class Drag { Orbit, Pan, Zoom };
 
 /// A scene's view as an OpenGL texture that follows the mouse: for a window's panel, or without any window.
-/// Draws only if something changed; while the eye moves it draws a rough picture fast, and the full one
-/// kSettle_s after the last movement. Pixels count from the top left.
+/// Draws only if something changed. Where a full picture takes longer than kQuick_s (software drivers), a
+/// rough one comes first and the full one kSettle_s after the last movement or change. Pixels count from the
+/// top left.
 class Viewport {
  public:
-  static constexpr double kSettle_s = 0.2;
+  static constexpr double kSettle_s = 0.2, kQuick_s = 0.06;
 
   /// Context and scene must outlive the viewport; all calls come from the context's thread.
   /// \throws std::runtime_error if OpenGL fails.
@@ -55,9 +56,11 @@ class Viewport {
   bool dragging() const;
   /// Positive notches come nearer to what is under the cursor.
   void wheel(double notches, const Eigen::Vector2d& at_px);
-  /// The eye is moved by somebody else, a key or an animation: pictures are rough until kSettle_s after the
-  /// last call with true.
+  /// The eye is moved by somebody else, a key or an animation: pictures may be rough until kSettle_s after
+  /// the last call with true; with false the full one comes at once.
   void setMoving(bool moving);
+  /// The last picture is a full one of the scene as it is.
+  bool settled() const;
 
   /// The view as it is now, at its size and in full quality.
   RgbImage screenshot();

@@ -3,29 +3,12 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
 #include <unordered_map>
+
+#include "viewer/face_rows.h"
 
 namespace vantage {
 namespace {
-
-/// Half-open range of voxels.
-struct VoxelRange {
-  Eigen::Vector3i begin, end;
-  bool empty() const { return (end.array() <= begin.array()).any(); }
-};
-
-VoxelRange voxelsIn(const GridGeometry& grid, const Box& box) {
-  if (grid.count() == 0 || box.isEmpty()) return {Eigen::Vector3i::Zero(), Eigen::Vector3i::Zero()};
-  VoxelRange range;
-  const Eigen::Vector3d low = grid.toGrid(box.min()), high = grid.toGrid(box.max());
-  for (int a = 0; a < 3; ++a) {
-    range.begin[a] = static_cast<int>(std::clamp(std::ceil(low[a]), 0.0, static_cast<double>(grid.size[a])));
-    range.end[a] =
-        static_cast<int>(std::clamp(std::floor(high[a]) + 1.0, 0.0, static_cast<double>(grid.size[a])));
-  }
-  return range;
-}
 
 /// Corners of the six faces, in the order -x +x -y +y -z +z, counter-clockwise from outside.
 constexpr int kCorner[6][4][3] = {
@@ -33,20 +16,11 @@ constexpr int kCorner[6][4][3] = {
     {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}, {{0, 1, 0}, {0, 1, 1}, {1, 1, 1}, {1, 1, 0}},
     {{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}}, {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
 
-struct Face {
-  std::int32_t i, j;
-  std::int32_t side;
-};
-
 /// What the passes share: the range and the corner lattice over it.
 class FaceExtractor {
  public:
   FaceExtractor(const StateGrid& grid, VoxelState of, FaceRule rule, const VoxelRange& range)
-      : grid_(grid),
-        geometry_(grid.geometry()),
-        of_(static_cast<std::uint8_t>(of)),
-        rule_(rule),
-        range_(range) {
+      : grid_(grid), geometry_(grid.geometry()), of_(of), rule_(rule), range_(range) {
     corners_x_ = range.end.x() - range.begin.x() + 1;
     corners_y_ = range.end.y() - range.begin.y() + 1;
   }
@@ -54,7 +28,9 @@ class FaceExtractor {
   FaceMesh run() {
     const int layers = range_.end.z() - range_.begin.z();
     faces_.resize(layers);
-    tbb::parallel_for(0, layers, [&](int layer) { faces_[layer] = facesOfLayer(range_.begin.z() + layer); });
+    tbb::parallel_for(0, layers, [&](int layer) {
+      faces_[layer] = facesOfLayer(grid_, of_, rule_, range_, range_.begin.z() + layer);
+    });
     corner_ids_.resize(layers + 1);
     std::vector<std::uint32_t> corner_count(layers + 1);
     tbb::parallel_for(0, layers + 1, [&](int plane) { corner_count[plane] = numberCorners(plane); });
@@ -62,33 +38,7 @@ class FaceExtractor {
   }
 
  private:
-  bool drawn(const Eigen::Vector3i& neighbour) const {
-    const bool inside =
-        (neighbour.array() >= range_.begin.array()).all() && (neighbour.array() < range_.end.array()).all();
-    if (!inside) return rule_ == FaceRule::TowardOther;
-    const std::uint8_t state = grid_.states()[geometry_.index(neighbour)];
-    return rule_ == FaceRule::TowardOther ? state != of_
-                                          : state == static_cast<std::uint8_t>(VoxelState::Free);
-  }
-
-  std::vector<Face> facesOfLayer(int k) const {
-    std::vector<Face> faces;
-    const std::uint8_t* states = grid_.states().data();
-    for (int j = range_.begin.y(); j < range_.end.y(); ++j) {
-      const std::uint8_t* row = states + geometry_.index(0, j, k);
-      for (int i = range_.begin.x(); i < range_.end.x(); ++i) {
-        if (row[i] != of_) continue;
-        for (int side = 0; side < 6; ++side) {
-          Eigen::Vector3i neighbour(i, j, k);
-          neighbour[side / 2] += side % 2 ? 1 : -1;
-          if (drawn(neighbour)) faces.push_back({i, j, side});
-        }
-      }
-    }
-    return faces;
-  }
-
-  std::size_t cornerSlot(const Face& face, int corner) const {
+  std::size_t cornerSlot(const VoxelFace& face, int corner) const {
     const int* c = kCorner[face.side][corner];
     return static_cast<std::size_t>(face.j - range_.begin.y() + c[1]) * corners_x_ +
            (face.i - range_.begin.x() + c[0]);
@@ -101,7 +51,7 @@ class FaceExtractor {
       const int layer = plane - below;
       if (layer < 0 || layer >= static_cast<int>(faces_.size()) || faces_[layer].empty()) continue;
       if (ids.empty()) ids.assign(static_cast<std::size_t>(corners_x_) * corners_y_, 0);
-      for (const Face& face : faces_[layer]) {
+      for (const VoxelFace& face : faces_[layer]) {
         for (int corner = 0; corner < 4; ++corner) {
           if (kCorner[face.side][corner][2] == below) ids[cornerSlot(face, corner)] = 1;
         }
@@ -134,7 +84,7 @@ class FaceExtractor {
     });
     tbb::parallel_for(0, layers, [&](int layer) {
       std::uint32_t quad = first_quad[layer];
-      for (const Face& face : faces_[layer]) {
+      for (const VoxelFace& face : faces_[layer]) {
         for (int corner = 0; corner < 4; ++corner) {
           const int plane = layer + kCorner[face.side][corner][2];
           mesh.quads[quad][corner] = first_corner[plane] + corner_ids_[plane][cornerSlot(face, corner)] - 1;
@@ -147,11 +97,11 @@ class FaceExtractor {
 
   const StateGrid& grid_;
   const GridGeometry& geometry_;
-  std::uint8_t of_;
+  VoxelState of_;
   FaceRule rule_;
   VoxelRange range_;
   int corners_x_ = 0, corners_y_ = 0;
-  std::vector<std::vector<Face>> faces_;                ///< per layer of voxels
+  std::vector<std::vector<VoxelFace>> faces_;           ///< per layer of voxels
   std::vector<std::vector<std::uint32_t>> corner_ids_;  ///< per plane of corners; empty if none is used
 };
 

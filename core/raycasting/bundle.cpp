@@ -46,9 +46,6 @@ class Tiles {
     return {slope_x_.data(), slope_y_, 0, lanes_.data(), tiles_};
   }
 
-  static float slopeX(const PinholeCamera& c, int u) { return static_cast<float>((u - c.cx) / c.fx); }
-  static float slopeY(const PinholeCamera& c, int v) { return static_cast<float>((v - c.cy) / c.fy); }
-
  private:
   int columnOf(std::size_t k) const {
     return pixels_.u0 + 4 * static_cast<int>(k / 16) + static_cast<int>(k % 4);
@@ -205,7 +202,7 @@ void HitCounter::castPlainly(const StateGrid& grid, const PinholeCamera& camera,
   for (int v = pixels.v0; v < pixels.v1; ++v)
     for (int u = pixels.u0; u < pixels.u1; ++u) {
       float length = 1.0f;
-      const auto ray = plainRay(bundle, Tiles::slopeX(camera, u), Tiles::slopeY(camera, v), length);
+      const auto ray = plainRay(bundle, slopeX(camera, u), slopeY(camera, v), length);
       const auto end = walkPlainly(bundle.grid.size, ray, stops);
       totals.visited += end.visited;
       if (!end.hit || end.t < bundle.min_range_m / length || !withinBounds(region, end.voxel)) continue;

@@ -14,6 +14,14 @@ struct PixelRectangle {
   int u0 = 0, v0 = 0, u1 = 0, v1 = 0;
 };
 
+/// Sideways metres a metre of depth of the ray through a pixel.
+inline float slopeX(const PinholeCamera& c, int u) {
+  return static_cast<float>((u - c.cx) / c.fx);
+}
+inline float slopeY(const PinholeCamera& c, int v) {
+  return static_cast<float>((v - c.cy) / c.fy);
+}
+
 /// Voxels whose centre counts for a query, in the indices of a grid.
 Region makeRegion(const GridGeometry& geometry, const VisibilityQuery& query);
 

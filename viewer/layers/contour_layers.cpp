@@ -1,16 +1,11 @@
 // Contours: voxels where known surface ends at unknown space, and the points they are reduced to.
 #include <algorithm>
 
+#include "viewer/contour_marks.h"
 #include "viewer/layers/layer.h"
 #include "viewer/layers/shapes.h"
 
 namespace vantage {
-namespace {
-
-constexpr double kNormalLength_m = 0.055;
-
-}  // namespace
-
 LayerContent contourVoxelsLayer(const SceneFrame& frame, const LayerStyle& style) {
   LayerContent content;
   if (!frame.record.contours || frame.record.contours->voxels.empty()) return content;
@@ -29,7 +24,7 @@ LayerContent contourPointsLayer(const SceneFrame& frame, const LayerStyle& style
   LineSet normals;
   std::vector<Eigen::Vector3d> tips;
   for (const ContourPoint& point : frame.record.contours->points) {
-    const Eigen::Vector3d tip = point.position_m + kNormalLength_m * point.normal;
+    const Eigen::Vector3d tip = normalTip(point);
     normals.add(point.position_m, tip);
     tips.push_back(tip);
   }

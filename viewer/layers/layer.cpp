@@ -10,8 +10,8 @@ LayerContent buildLayer(Layer layer, const SceneFrame& frame, const LayerStyle& 
       workspaceLayer,     objectBoxLayer,    axesLayer,          truthLayer,         occupiedLayer,
       unknownLayer,       freeLayer,         slicesLayer,        octreeLayer,        surfaceLayer,
       segmentsLayer,      segmentRanksLayer, contourVoxelsLayer, contourPointsLayer, candidatesLayer,
-      utilitySphereLayer, hitVoxelsLayer,    coarseRaysLayer,    refinedRaysLayer,   rankedViewsLayer,
-      chosenViewLayer,    pathLayer,         sensorLayer,        depthImageLayer};
+      utilitySphereLayer, hitVoxelsLayer,    occludersLayer,     coarseRaysLayer,    refinedRaysLayer,
+      rankedViewsLayer,   chosenViewLayer,   pathLayer,          sensorLayer,        depthImageLayer};
   return kBuild[static_cast<std::size_t>(layer)](frame, style);
 }
 

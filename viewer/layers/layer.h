@@ -14,6 +14,7 @@ namespace vantage {
 /// What a layer adds to a view.
 struct LayerContent : LayerNotes {
   std::vector<vtkSmartPointer<vtkProp>> props;
+  std::size_t fine_props = 0;             ///< as many of the last ones are left out of rough pictures
   std::vector<Eigen::Vector3d> must_see;  ///< world points that must not fall outside the picture
 };
 
@@ -36,6 +37,8 @@ LayerContent contourPointsLayer(const SceneFrame& frame, const LayerStyle& style
 LayerContent candidatesLayer(const SceneFrame& frame, const LayerStyle& style);
 LayerContent utilitySphereLayer(const SceneFrame& frame, const LayerStyle& style);
 LayerContent hitVoxelsLayer(const SceneFrame& frame, const LayerStyle& style);
+LayerContent contourHitsLayer(const SceneFrame& frame, const LayerStyle& style);  // HitVoxels off the octree
+LayerContent occludersLayer(const SceneFrame& frame, const LayerStyle& style);
 LayerContent coarseRaysLayer(const SceneFrame& frame, const LayerStyle& style);
 LayerContent refinedRaysLayer(const SceneFrame& frame, const LayerStyle& style);
 LayerContent rankedViewsLayer(const SceneFrame& frame, const LayerStyle& style);

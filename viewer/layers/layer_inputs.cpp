@@ -80,6 +80,8 @@ constexpr Reads readsOf(Layer layer) {
       return {kUtilities, kFactor | kBestViews | kLines | kColors};
     case Layer::HitVoxels:
       return {kMap | kPositions | kSearch | kUtilities | kGain, kViewId | kUnknownOpacity | kLines};
+    case Layer::Occluders:
+      return {kMap | kPositions | kSearch | kUtilities | kGain, kViewId};
     case Layer::CoarseRays:
     case Layer::RefinedRays:
       return {kMap | kUtilities, kViewId | kRays | kLines};

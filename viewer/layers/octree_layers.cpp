@@ -14,8 +14,6 @@ namespace {
 
 using Mark = LegendEntry::Mark;
 
-constexpr double kSupportMargin_m = 0.04;  ///< occupied nodes just under the workspace are its floor
-
 struct FateStyle {
   RayFate fate;
   Rgb color;
@@ -116,8 +114,7 @@ LayerContent octreeLayer(const SceneFrame& frame, const LayerStyle& style) {
   const StatePyramid& pyramid = *frame.pyramid;
   const int level = std::min(style.octree_level.value_or(coarseLevels(frame)), pyramid.coarseLevels());
   const StateGrid& nodes = pyramid.level(level);
-  Box clip = frame.header.workspace;
-  if (!clip.isEmpty()) clip.min().z() -= kSupportMargin_m;
+  const Box clip = occupiedBox(frame);
   const Box node_clip = nodesInBox(frame, level);  // only these count
   for (int c = 0; !node_clip.isEmpty() && c < 8; ++c)
     content.must_see.push_back(node_clip.corner(static_cast<Box::CornerType>(c)));
@@ -177,6 +174,7 @@ LayerContent refinedRaysLayer(const SceneFrame& frame, const LayerStyle& style) 
 }
 
 LayerContent hitVoxelsLayer(const SceneFrame& frame, const LayerStyle& style) {
+  if (!onOctree(frame)) return contourHitsLayer(frame, style);
   LayerContent content;
   const std::optional<ViewTrace> trace = traceView(frame, style);
   if (!trace) return content;

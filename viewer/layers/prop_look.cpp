@@ -126,12 +126,15 @@ bool isClipped(Layer layer) {
   }
 }
 
-PropLooks::PropLooks(const std::vector<vtkSmartPointer<vtkProp>>& props) {
-  for (const auto& prop : props) {
+PropLooks::PropLooks(const LayerContent& content) {
+  for (std::size_t n = 0; n < content.props.size(); ++n) {
+    const auto& prop = content.props[n];
     Built& built = props_.emplace_back();
     built.prop = prop;
+    built.fine = n + content.fine_props >= content.props.size();
     if (auto* actor = vtkActor::SafeDownCast(prop)) {
       built.opacity = actor->GetProperty()->GetOpacity();
+      built.closed = built.opacity == 1.0 && actor->GetProperty()->GetBackfaceCulling();
       built.line_px = actor->GetProperty()->GetLineWidth();
       built.point_px = actor->GetProperty()->GetPointSize();
     } else if (vtkTextProperty* letters = lettersOf(prop)) {
@@ -140,14 +143,15 @@ PropLooks::PropLooks(const std::vector<vtkSmartPointer<vtkProp>>& props) {
   }
 }
 
-void PropLooks::apply(const LayerLook& look, const ClipPlanes* clip) const {
+void PropLooks::apply(const LayerLook& look, const ClipPlanes* clip, bool rough) const {
   for (const Built& built : props_) {
-    bool visible = look.opacity > 0.0;
+    bool visible = look.opacity > 0.0 && !(rough && built.fine);
     if (auto* actor = vtkActor::SafeDownCast(built.prop)) {
       actor->GetProperty()->SetOpacity(built.opacity * look.opacity);
       actor->GetProperty()->SetLineWidth(built.line_px * static_cast<float>(look.size));
       actor->GetProperty()->SetPointSize(built.point_px * static_cast<float>(look.size));
       vtkPlaneCollection* planes = clip ? clip->planes() : nullptr;
+      if (built.closed) actor->GetProperty()->SetBackfaceCulling(!planes);
       if (actor->GetMapper() && actor->GetMapper()->GetClippingPlanes() != planes)
         actor->GetMapper()->SetClippingPlanes(planes);
     } else if (vtkTextProperty* letters = lettersOf(built.prop)) {

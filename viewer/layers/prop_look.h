@@ -38,8 +38,9 @@ class PropLooks {
  public:
   PropLooks() = default;
   /// Remembers opacities and sizes as they were built.
-  explicit PropLooks(const std::vector<vtkSmartPointer<vtkProp>>& props);
-  void apply(const LayerLook& look, const ClipPlanes* clip) const;
+  explicit PropLooks(const LayerContent& content);
+  /// \param rough without what rough pictures leave out
+  void apply(const LayerLook& look, const ClipPlanes* clip, bool rough) const;
 
  private:
   struct Built {
@@ -47,6 +48,8 @@ class PropLooks {
     double opacity = 1.0;
     float line_px = 1.0f, point_px = 1.0f;
     int letters_px = 0;
+    bool closed = false;  ///< drawn without its inside, which is seen only where it is cut open
+    bool fine = false;    ///< not in rough pictures
   };
   std::vector<Built> props_;
 };

@@ -5,6 +5,7 @@
 #include <vtkCellData.h>
 #include <vtkCoordinate.h>
 #include <vtkFloatArray.h>
+#include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -14,6 +15,7 @@
 #include <vtkSphereSource.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
+#include <vtkTexture.h>
 #include <vtkTubeFilter.h>
 #include <vtkTypeInt32Array.h>
 #include <vtkUnsignedCharArray.h>
@@ -195,16 +197,58 @@ vtkSmartPointer<vtkActor> ballActor(const Eigen::Vector3d& center, double radius
   return actor;
 }
 
-vtkSmartPointer<vtkActor> faceActor(const FaceMesh& faces, Rgb color, double opacity) {
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(toPoints(faces.corners));
-  data->SetPolys(toCells(faces.quads));
+namespace {
+
+vtkSmartPointer<vtkActor> flatActor(vtkPolyData* data, Rgb color, double opacity) {
   auto actor = makeActor(data, color);
   actor->GetProperty()->SetInterpolationToFlat();
   actor->GetProperty()->SetOpacity(opacity);
   // Translucent faces keep their colour from all sides: they say "unknown", not which way they look.
   actor->GetProperty()->SetAmbient(opacity < 1.0 ? 0.75 : 0.35);
   actor->GetProperty()->SetDiffuse(opacity < 1.0 ? 0.30 : 0.75);
+  return actor;
+}
+
+}  // namespace
+
+vtkSmartPointer<vtkActor> faceActor(const FaceMesh& faces, Rgb color, double opacity) {
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(toPoints(faces.corners));
+  data->SetPolys(toCells(faces.quads));
+  return flatActor(data, color, opacity);
+}
+
+vtkSmartPointer<vtkActor> faceActor(const MergedFaces& faces, Rgb color, double opacity) {
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(toPoints(faces.corners));
+  data->SetPolys(toCells(faces.triangles));
+  return flatActor(data, color, opacity);
+}
+
+vtkSmartPointer<vtkActor> hatchedActor(const FaceMesh& faces, Rgb color, double period_m) {
+  constexpr int kTexels = 16, kDark = 6;
+  vtkNew<vtkImageData> stripes;
+  stripes->SetDimensions(kTexels, 1, 1);
+  stripes->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  const auto light = color.bytes(), dark = palette::kInk.bytes();
+  auto* texel = static_cast<std::uint8_t*>(stripes->GetScalarPointer());
+  for (int n = 0; n < kTexels; ++n) texel = std::copy_n((n < kDark ? dark : light).begin(), 3, texel);
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(stripes);
+  texture->SetColorModeToDirectScalars();
+  texture->InterpolateOn();
+  texture->RepeatOn();
+  vtkNew<vtkFloatArray> along;  // x + y + z: lines of equal values cross every axis-aligned face diagonally
+  along->SetNumberOfComponents(2);
+  along->SetNumberOfTuples(static_cast<vtkIdType>(faces.corners.size()));
+  for (std::size_t n = 0; n < faces.corners.size(); ++n)
+    along->SetTuple2(static_cast<vtkIdType>(n), faces.corners[n].sum() / period_m, 0.5);
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(toPoints(faces.corners));
+  data->SetPolys(toCells(faces.quads));
+  data->GetPointData()->SetTCoords(along);
+  auto actor = flatActor(data, rgb(255, 255, 255), 1.0);
+  actor->SetTexture(texture);
   return actor;
 }
 

@@ -12,7 +12,7 @@
 #include "core/geometry/camera_model.h"
 #include "core/geometry/pose.h"
 #include "viewer/color.h"
-#include "viewer/voxel_faces.h"
+#include "viewer/merged_faces.h"
 
 namespace vantage {
 
@@ -52,6 +52,12 @@ vtkSmartPointer<vtkActor> ballActor(const Eigen::Vector3d& center, double radius
 
 /// Flat-shaded quads.
 vtkSmartPointer<vtkActor> faceActor(const FaceMesh& faces, Rgb color, double opacity);
+/// The same of merged faces.
+vtkSmartPointer<vtkActor> faceActor(const MergedFaces& faces, Rgb color, double opacity);
+
+/// Flat-shaded quads with diagonal stripes on all axis-aligned faces. \param period_m of a stripe and a gap,
+/// along an axis
+vtkSmartPointer<vtkActor> hatchedActor(const FaceMesh& faces, Rgb color, double period_m);
 
 /// Smooth-shaded triangles; `normals` one a point or empty (flat), `colors` one a point, one a triangle, or
 /// empty.

@@ -16,12 +16,10 @@
 namespace vantage {
 namespace {
 
-constexpr double kSupportMargin_m = 0.04;  ///< occupied voxels just under the workspace are its floor
-
 LayerContent faceLayer(const SceneFrame& frame, VoxelState state, FaceRule rule, const Box& clip, Rgb color,
                        double opacity, const std::string& legend) {
   LayerContent content;
-  const FaceMesh faces = extractFaces(frame.states, state, rule, clip);
+  const MergedFaces faces = extractMergedFaces(frame.states, state, rule, clip);
   if (faces.empty()) return content;
   auto actor = faceActor(faces, color, opacity);
   content.props.push_back(actor);
@@ -38,10 +36,7 @@ struct VoxelPlane {
 /// A slice across an axis within the workspace; nothing if it misses the workspace or the grid.
 std::optional<VoxelPlane> planeOf(const SceneFrame& frame, int axis, const SlicePlane& slice) {
   const GridGeometry& geometry = frame.states.geometry();
-  if (geometry.count() == 0) return std::nullopt;
-  const Box& workspace = frame.header.workspace;
-  Box bounds = geometry.bounds();
-  if (!workspace.isEmpty()) bounds = bounds.intersection(workspace);
+  Box bounds = slicedBox(frame);
   if (bounds.isEmpty()) return std::nullopt;
   VoxelPlane plane{axis, (axis + 1) % 3, (axis + 2) % 3};
   const double at_m = slice.at_m.value_or(bounds.center()[plane.axis]);
@@ -104,10 +99,12 @@ vtkSmartPointer<vtkActor> sliceActor(const StateGrid& grid, const VoxelPlane& vo
 }  // namespace
 
 LayerContent occupiedLayer(const SceneFrame& frame, const LayerStyle&) {
-  Box clip = frame.header.workspace;
-  if (!clip.isEmpty()) clip.min().z() -= kSupportMargin_m;
-  return faceLayer(frame, VoxelState::Occupied, FaceRule::TowardOther, clip, palette::kOccupied, 1.0,
-                   "occupied voxels");
+  LayerContent content = faceLayer(frame, VoxelState::Occupied, FaceRule::TowardOther, occupiedBox(frame),
+                                   palette::kOccupied, 1.0, "occupied voxels");
+  // Nobody sees the inside of closed bodies.
+  if (!content.props.empty())
+    vtkActor::SafeDownCast(content.props.front())->GetProperty()->BackfaceCullingOn();
+  return content;
 }
 
 LayerContent unknownLayer(const SceneFrame& frame, const LayerStyle& style) {
@@ -126,6 +123,7 @@ LayerContent unknownLayer(const SceneFrame& frame, const LayerStyle& style) {
   behind->GetProperty()->FrontfaceCullingOn();
   behind->GetProperty()->SetOpacity(kBehind * style.unknown_opacity);
   content.props.push_back(behind);
+  content.fine_props = 1;
   return content;
 }
 

@@ -1,0 +1,3 @@
+# What the inspector draws, through EGL; the driver stands in the label.
+vantage_benchmark(inspector_benchmark inspector_benchmark.cpp benchmark_main.cpp
+  LIBS vantage_viewer vantage_exploration vantage_io vantage_hardware)

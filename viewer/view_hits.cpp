@@ -1,0 +1,92 @@
+#include "viewer/view_hits.h"
+
+#include <algorithm>
+#include <string>
+
+#include "core/raycasting/first_hits.h"
+#include "io/error.h"
+
+namespace vantage {
+namespace {
+
+std::uint32_t rollsOf(const SceneFrame& frame) {
+  return static_cast<std::uint32_t>(std::max(1, frame.header.contour_config.views.rolls));
+}
+
+/// Id of the view whose rays are shown.
+std::optional<std::uint32_t> shownView(const SceneFrame& frame, const LayerStyle& style) {
+  const std::size_t candidates = frame.record.positions->size() * rollsOf(frame);
+  if (style.view_id) {
+    if (static_cast<std::size_t>(*style.view_id) >= candidates)
+      throw InputError("view_id = " + std::to_string(*style.view_id),
+                       "is no candidate of step " + std::to_string(frame.record.step) + "; allowed: 0 .. " +
+                           std::to_string(candidates - 1));
+    return static_cast<std::uint32_t>(*style.view_id);
+  }
+  if (frame.record.search->chosen) return frame.record.search->chosen->id;
+  const SegmentSearch* search = shownSearch(frame.record);
+  return search && !search->scores.empty() ? std::optional(search->scores.front().id) : std::nullopt;
+}
+
+void add(RayGroup& group, std::size_t voxel) {
+  ++group.rays;
+  group.voxels.push_back(voxel);
+}
+
+void finish(RayGroup& group) {
+  std::ranges::sort(group.voxels);
+  group.voxels.erase(std::unique(group.voxels.begin(), group.voxels.end()), group.voxels.end());
+}
+
+/// The region of a search's scores.
+VisibilityQuery queryOf(const SceneFrame& frame, const SegmentSearch& search) {
+  VisibilityQuery query;
+  query.outside = frame.header.contour_config.gain.outside;
+  if (search.sphere.radius > 0.0)
+    query.sphere = search.sphere;
+  else
+    query.bounds = frame.header.workspace;
+  return query;
+}
+
+}  // namespace
+
+const SegmentSearch* searchOf(const SceneFrame& frame, std::uint32_t id) {
+  const StepRecord& record = frame.record;
+  if (!record.search || !record.positions) return nullptr;
+  const std::uint32_t position = id / rollsOf(frame);
+  if (position >= record.positions->size()) return nullptr;
+  const std::uint32_t point = (*record.positions)[position].group;
+  for (const SegmentSearch& search : record.search->segments)
+    if (std::ranges::find(search.contour_points, point) != search.contour_points.end()) return &search;
+  return nullptr;
+}
+
+std::optional<ViewHits> castView(const SceneFrame& frame, const LayerStyle& style) {
+  const StepRecord& record = frame.record;
+  if (!record.search || !record.positions || record.positions->empty()) return std::nullopt;
+  const auto id = shownView(frame, style);
+  const SegmentSearch* search = id ? searchOf(frame, *id) : nullptr;
+  if (!search) return std::nullopt;
+  const ContourPlannerConfig& config = frame.header.contour_config;
+  const PinholeCamera camera = frame.header.camera.reduced(config.gain.reduction);
+  ViewHits hits;
+  hits.view = *id;
+  hits.region = search->sphere;
+  hits.T_world_camera = rolledPose((*record.positions)[*id / rollsOf(frame)],
+                                   static_cast<int>(*id % rollsOf(frame)), config.views);
+  hits.rays = static_cast<std::uint64_t>(camera.width) * camera.height;
+  for (const FirstHit& hit : firstHits(frame.states, camera, hits.T_world_camera, queryOf(frame, *search))) {
+    const bool unknown = hit.state == VoxelState::Unknown;
+    add(hit.too_near ? hits.too_near
+        : hit.counts ? (unknown ? hits.counted : hits.known)
+        : unknown    ? hits.unknown_before
+                     : hits.occluded,
+        hit.voxel);
+  }
+  for (RayGroup* group : {&hits.counted, &hits.known, &hits.occluded, &hits.unknown_before, &hits.too_near})
+    finish(*group);
+  return hits;
+}
+
+}  // namespace vantage

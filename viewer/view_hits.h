@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "viewer/scene_frame.h"
+#include "viewer/view_settings.h"
+
+namespace vantage {
+
+/// Rays that share a fate and the voxels on which they end.
+struct RayGroup {
+  std::uint64_t rays = 0;
+  std::vector<std::size_t> voxels;  ///< GridGeometry::index(), ascending, each once
+};
+
+/// Where the rays of one candidate of the contour planner (or its baseline) end, cast at the planner's
+/// resolution with the rays that its score counts.
+struct ViewHits {
+  std::uint32_t view = 0;  ///< candidate id
+  Pose T_world_camera = Pose::Identity();
+  Sphere region;            ///< in which unknown counts; radius 0 = the workspace
+  std::uint64_t rays = 0;   ///< cast
+  RayGroup counted;         ///< end on unknown in the region: PoseScore::unknown
+  RayGroup known;           ///< end on occupied voxels in the region: PoseScore::occupied
+  RayGroup occluded;        ///< end on occupied voxels outside it
+  RayGroup unknown_before;  ///< end on unknown outside it, which stops rays (D-B9)
+  RayGroup too_near;        ///< end nearer than the camera sees
+};
+
+/// The rays of the style's view, else of the chosen one, else of the best that was scored; nothing for steps
+/// of other planners, without candidates or without a region for the view. \throws InputError naming the
+/// range if the style asks for a view that is no candidate.
+std::optional<ViewHits> castView(const SceneFrame& frame, const LayerStyle& style);
+
+/// The search that a candidate belongs to, scored or not; null if there is none (D-B33).
+const SegmentSearch* searchOf(const SceneFrame& frame, std::uint32_t id);
+
+}  // namespace vantage
