@@ -47,6 +47,19 @@ StepData RunSession::load(int step) {
   return data;
 }
 
+void RunSession::prepare(int step) {
+  constexpr std::size_t kMostMaps = 2;
+  const auto found = std::ranges::find(summaries_, step, &StepSummary::step);
+  if (found == summaries_.end()) return;
+  StepRecord record;
+  record.planner = found->planner;
+  if (usesOctree(plannerKindOf(*header_, record)) && header_->octree) {
+    if (octrees_.hasRoom(kMostMaps)) octreeAt(step);
+  } else if (volumes_.hasRoom(kMostMaps)) {
+    volumeAt(step);
+  }
+}
+
 std::shared_ptr<const RunSession::VolumeMap> RunSession::volumeAt(int step) {
   const auto make = [&] {
     return std::make_unique<VolumeMap>(VolumeMap{TsdfVolume(header_->volume), StateGrid(header_->volume)});
