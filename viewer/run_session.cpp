@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "io/error.h"
-#include "viewer/step_maps.h"
 
 namespace vantage {
 namespace {
