@@ -9,7 +9,7 @@
 #include "io/error.h"
 #include "snapshots/contact_sheet.h"
 #include "snapshots/snapshot.h"
-#include "viewer/step_maps.h"
+#include "viewer/run_session.h"
 
 namespace vantage {
 namespace {
@@ -20,15 +20,15 @@ constexpr int kEndRow = 1 << 30;
 /// One of the two runs while the sheet is drawn.
 class ComparedRun {
  public:
-  explicit ComparedRun(const std::filesystem::path& path) : path_(path), reader_(path) {}
+  explicit ComparedRun(const std::filesystem::path& path) : session_(path) {}
 
-  const RunHeader& header() const { return reader_.header(); }
-  std::string name() const { return path_.stem().string(); }
-  const std::filesystem::path& path() const { return path_; }
+  const RunHeader& header() const { return *session_.header(); }
+  std::string name() const { return path().stem().string(); }
+  const std::filesystem::path& path() const { return session_.path(); }
 
   std::vector<int> rows() const {
-    std::vector<int> rows = reader_.steps();
-    if (reader_.hasClosing()) rows.push_back(kEndRow);
+    std::vector<int> rows;
+    for (const StepSummary& step : session_.summaries()) rows.push_back(step.closing ? kEndRow : step.step);
     return rows;
   }
   bool has(int row) const {
@@ -37,15 +37,14 @@ class ComparedRun {
   }
   /// The frame of a row that the run has; valid until the next call.
   SceneFrame frame(int row) {
-    record_ = row == kEndRow ? reader_.closing(RunDetail::NoVolume) : reader_.step(row, RunDetail::NoVolume);
-    return maps_.at(record_);
+    shown_ = {};  // first: its map serves the next row
+    shown_ = session_.load(row == kEndRow ? session_.summaries().back().step : row);
+    return shown_.frame();
   }
 
  private:
-  std::filesystem::path path_;
-  RunReader reader_;
-  StepMaps maps_{reader_};
-  StepRecord record_;
+  RunSession session_;
+  StepData shown_;
 };
 
 using Pair = std::array<std::unique_ptr<ComparedRun>, 2>;

@@ -6,7 +6,7 @@
 
 #include "viewer/legend.h"
 #include "viewer/page.h"
-#include "viewer/step_maps.h"
+#include "viewer/step_data.h"
 
 namespace vantage {
 namespace {

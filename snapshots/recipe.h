@@ -80,6 +80,12 @@ const Recipe& recipeNamed(const std::string& name);
 ///     front_m = 0.2                          # space before the workspace (-y) that must be seen
 ///     height_share = 0.8                     # share of the workspace's height that must be seen
 ///
+///     [camera.eye]                           # exactly from here; then the rest of the camera does not count
+///     position_m = [1.0, -1.0, 1.0]
+///     focus_m = [0.0, 0.0, 0.1]              # what is looked at
+///     up = [0.0, 0.0, 1.0]
+///     fov_deg = 25
+///
 ///     [looks.ranked-views]                   # of a layer, multiplied on top of its style
 ///     opacity = 0.5                          # [0, 1]
 ///     size = 2.0                             # widths of lines, points and letters, [0.2, 5]

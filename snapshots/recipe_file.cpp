@@ -65,22 +65,14 @@ Recipe readRecipe(const std::filesystem::path& file) {
   recipe.name = file.stem().string();
   recipe.purpose = "recipe of " + source;
   recipe.view.layers = layersOf(document, source);
-  if (const auto* part = tomlPart(document, "style", source)) {
-    SceneTable table(*part, source, "style");
-    readStyle(table, recipe.view.style);
-    table.finish();
-  }
-  if (const auto* part = tomlPart(document, "camera", source)) {
-    SceneTable table(*part, source, "camera");
-    readCamera(table, recipe.view.camera);
-    table.finish();
-  }
-  if (const auto* part = tomlPart(document, "looks", source)) readLooks(*part, source, recipe.view);
-  if (const auto* part = tomlPart(document, "clip", source)) {
-    SceneTable table(*part, source, "clip");
-    recipe.view.clip = readBox(table);
-    table.finish();
-  }
+  constexpr UnknownKeys kUnknown = UnknownKeys::Refused;
+  if (const auto* part = tomlPart(document, "style", source))
+    readStyle(*part, source, kUnknown, recipe.view.style);
+  if (const auto* part = tomlPart(document, "camera", source))
+    readCamera(*part, source, kUnknown, recipe.view.camera);
+  if (const auto* part = tomlPart(document, "looks", source)) readLooks(*part, source, kUnknown, recipe.view);
+  if (const auto* part = tomlPart(document, "clip", source))
+    recipe.view.clip = readBox(*part, source, kUnknown);
 
   SceneTable top(document, source, "recipe");
   recipe.title = top.text("title", recipe.name);
@@ -103,9 +95,7 @@ void setStyle(LayerStyle& style, const std::string& assignment) {
     table.insert(key, number);
   else
     table.insert(key, value);
-  SceneTable keys(table, source, "style");
-  readStyle(keys, style);
-  keys.finish();
+  readStyle(table, source, UnknownKeys::Refused, style);
 }
 
 Recipe recipeFrom(const std::string& name_or_file) {

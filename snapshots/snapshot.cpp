@@ -9,7 +9,7 @@
 #include "io/suggest.h"
 #include "snapshots/contact_sheet.h"
 #include "viewer/captions.h"
-#include "viewer/step_maps.h"
+#include "viewer/run_session.h"
 
 namespace vantage {
 namespace {
@@ -34,28 +34,29 @@ std::string stepText(int step) {
 }
 
 /// The steps to draw: those asked for, and the closing map if one of the recipes can show it.
-std::vector<int> stepsOf(const RunReader& reader, const SnapshotRequest& request,
-                         const std::vector<Recipe>& recipes, const std::filesystem::path& run) {
+std::vector<int> stepsOf(const RunSession& run, const SnapshotRequest& request,
+                         const std::vector<Recipe>& recipes) {
+  const std::string file = run.path().string();
   const bool shows_map =
       std::any_of(recipes.begin(), recipes.end(), [](const Recipe& recipe) { return !recipe.planning(); });
-  std::vector<int> steps = reader.steps();
+  std::vector<int> steps;
+  for (const StepSummary& summary : run.summaries()) steps.push_back(summary.step);
+  const bool closing = !steps.empty() && run.summaries().back().closing;
   if (!request.step) {
-    if (reader.hasClosing() && shows_map) steps.push_back(reader.closingStep());
-    if (steps.empty())
-      throw InputError(run.string(), "the run has no finished step yet; explore further first");
+    if (closing && !shows_map) steps.pop_back();
+    if (steps.empty()) throw InputError(file, "the run has no finished step yet; explore further first");
     return steps;
   }
-  if (reader.hasClosing()) steps.push_back(reader.closingStep());
   const bool end = *request.step == SnapshotRequest::kEnd;
-  if (end && !reader.hasClosing())
-    throw InputError(run.string(), "there is no map after the last scan: the run was cut off; name a step");
-  const int step = end ? reader.closingStep() : *request.step;
+  if (end && !closing)
+    throw InputError(file, "there is no map after the last scan: the run was cut off; name a step");
+  const int step = end ? steps.back() : *request.step;
   if (std::find(steps.begin(), steps.end(), step) == steps.end()) {
     const std::string known =
         steps.empty() ? "none" : std::to_string(steps.front()) + " .. " + std::to_string(steps.back());
-    throw InputError(run.string(), "there is no step " + std::to_string(step) + "; recorded: " + known);
+    throw InputError(file, "there is no step " + std::to_string(step) + "; recorded: " + known);
   }
-  if (reader.hasClosing() && step == reader.closingStep() && !shows_map)
+  if (closing && step == steps.back() && !shows_map)
     throw InputError(
         "recipe '" + recipes.front().name + "'",
         "it shows planning, which the map after the last scan does not have; try scene, states or slice");
@@ -96,15 +97,15 @@ void requireRays(const SnapshotRequest& request, const std::vector<Recipe>& reci
 class SnapshotSession {
  public:
   SnapshotSession(const std::filesystem::path& run, const SnapshotRequest& request, const RunControl& control)
-      : run_(run), request_(request), control_(control), reader_(run) {
+      : request_(request), control_(control), session_(run) {
     const std::vector<std::string> names =
-        request.recipes.empty() ? defaultRecipesOf(reader_.header()) : request.recipes;
+        request.recipes.empty() ? defaultRecipesOf(*session_.header()) : request.recipes;
     for (const std::string& name : names) {
       recipes_.push_back(recipeFrom(name));
       for (const std::string& assignment : request.style) setStyle(recipes_.back().view.style, assignment);
     }
     requireRays(request, recipes_);
-    steps_ = stepsOf(reader_, request, recipes_, run);
+    steps_ = stepsOf(session_, request, recipes_);
     checkRequest(request, steps_.size(), recipes_.size());
     name_ = run.stem().string();
     context_ = std::make_unique<EglContext>();
@@ -118,21 +119,20 @@ class SnapshotSession {
     }
     if (written_.empty())
       throw InputError("recipe '" + recipes_.front().name + "'",
-                       "no step has anything of it: all were chosen by the " + reader_.header().planner +
+                       "no step has anything of it: all were chosen by the " + session_.header()->planner +
                            " planner; try " +
-                           joined(defaultRecipes(plannersFromText(reader_.header().planner).front())));
+                           joined(defaultRecipes(plannersFromText(session_.header()->planner).front())));
     if (sheet_ && sheet_->rows() > 0) finishSheet();
     return written_;
   }
 
  private:
   void drawStep(int step) {
-    const bool closing = reader_.hasClosing() && step == reader_.closingStep();
-    const StepRecord record =
-        closing ? reader_.closing(RunDetail::NoVolume) : reader_.step(step, RunDetail::NoVolume);
-    const PlannerKind planner = plannerKindOf(reader_.header(), record);
-    if (request_.step) requireOwn(record, planner);
-    const SceneFrame frame = maps_.at(record);
+    const StepData shown = session_.load(step);
+    const SceneFrame frame = shown.frame();
+    const bool closing = frame.record.closing;
+    const PlannerKind planner = plannerKindOf(frame.header, frame.record);
+    if (request_.step) requireOwn(frame.record, planner);
     scene_.setFrame(frame);
     const std::uint64_t total = steps_.size() * recipes_.size();
     for (const Recipe& recipe : recipes_) {
@@ -163,7 +163,7 @@ class SnapshotSession {
     if (sheet_ && sheet_->rows() == ContactSheet::kMostRows) finishSheet();
     if (!sheet_)
       sheet_ =
-          std::make_unique<ContactSheet>(name_ + "  ·  " + reader_.header().planner + " planner", recipes_);
+          std::make_unique<ContactSheet>(name_ + "  ·  " + session_.header()->planner + " planner", recipes_);
     sheet_->addRow(scene_, *renderer_, frame);
   }
 
@@ -176,16 +176,14 @@ class SnapshotSession {
     sheet_.reset();
   }
 
-  std::filesystem::path run_;
   SnapshotRequest request_;
   RunControl control_;
-  RunReader reader_;
+  RunSession session_;
   std::string name_;
   std::vector<Recipe> recipes_;
   std::vector<int> steps_;
   std::unique_ptr<EglContext> context_;
   std::unique_ptr<OffscreenRenderer> renderer_;
-  StepMaps maps_{reader_};
   Scene scene_;
   std::unique_ptr<ContactSheet> sheet_;
   int sheets_ = 0;

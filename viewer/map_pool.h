@@ -1,7 +1,7 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdlib>
-#include <limits>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -32,6 +32,13 @@ class MapPool {
       }
     }
     return lend(*slot);
+  }
+
+  /// A map that nobody holds can be used, or there are fewer than `most`.
+  bool hasRoom(std::size_t most) const {
+    const std::lock_guard lock(shelf_->mutex);
+    return shelf_->slots.size() < most ||
+           std::ranges::any_of(shelf_->slots, [](const auto& slot) { return slot->free; });
   }
 
   /// Maps that exist, handed out or not.

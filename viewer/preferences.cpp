@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "io/error.h"
+#include "io/scene_table.h"
 #include "io/text_file.h"
 #include "viewer/file_kind.h"
 #include "viewer/view_toml.h"
@@ -113,7 +114,6 @@ class PartsReader {
     }
   }
 
-  SceneTable keys(const toml::table& part, const char* name) const { return {part, source_, name}; }
   const std::string& source() const { return source_; }
   /// The first thing that was wrong.
   const std::string& problem() const { return problem_; }
@@ -125,20 +125,18 @@ class PartsReader {
 
 void readView(PartsReader& parts, ViewSettings& view) {
   parts.node("layers", view.layers, [&](const toml::node& node) { return readLayers(node, parts.source()); });
+  const std::string& source = parts.source();
   parts.table("style", view.style, [&](const toml::table& part, LayerStyle& style) {
-    SceneTable table = parts.keys(part, "style");
-    readStyle(table, style);
+    readStyle(part, source, UnknownKeys::Ignored, style);
   });
   parts.table("camera", view.camera, [&](const toml::table& part, CameraView& camera) {
-    SceneTable table = parts.keys(part, "camera");
-    readCamera(table, camera);
+    readCamera(part, source, UnknownKeys::Ignored, camera);
   });
   parts.table("looks", view, [&](const toml::table& part, ViewSettings& settings) {
-    readLooks(part, parts.source(), settings);
+    readLooks(part, source, UnknownKeys::Ignored, settings);
   });
   parts.table("clip", view.clip, [&](const toml::table& part, std::optional<Box>& clip) {
-    SceneTable table = parts.keys(part, "clip");
-    clip = readBox(table);
+    clip = readBox(part, source, UnknownKeys::Ignored);
   });
 }
 
@@ -162,8 +160,8 @@ void readBookmarks(PartsReader& parts, const toml::node& node, std::vector<Bookm
     const toml::table* part = entry.as_table();
     if (!part || bookmarks.size() >= Preferences::kMostBookmarks) continue;
     parts.attempt([&] {
-      SceneTable table = parts.keys(*part, "bookmark");
-      bookmarks.push_back({table.text("name"), readEye(table)});
+      const Eye eye = readEye(*part, parts.source(), UnknownKeys::Ignored);
+      bookmarks.push_back({SceneTable(*part, parts.source(), "bookmark").text("name"), eye});
     });
   }
 }
@@ -171,12 +169,11 @@ void readBookmarks(PartsReader& parts, const toml::node& node, std::vector<Bookm
 Preferences fromToml(PartsReader& parts, const toml::table& document) {
   Preferences preferences;
   parts.table("window", preferences, [&](const toml::table& part, Preferences& changed) {
-    readWindow(parts.keys(part, "window"), changed);
+    readWindow({part, parts.source(), "window"}, changed);
   });
   readView(parts, preferences.view);
   parts.table("eye", preferences.eye, [&](const toml::table& part, std::optional<Eye>& eye) {
-    SceneTable table = parts.keys(part, "eye");
-    eye = readEye(table);
+    eye = readEye(part, parts.source(), UnknownKeys::Ignored);
   });
   if (const toml::node* list = document.get("recent_files"))
     parts.attempt([&] { readRecent(parts, *list, preferences.recent_files); });

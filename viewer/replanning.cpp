@@ -149,8 +149,7 @@ void replanOctree(StepRecord& record, StepData& data, const WhatIfContext& conte
 }  // namespace
 
 PlannerKind plannerOfStep(const StepData& data) {
-  const std::string& name = data.record->planner.empty() ? data.header->planner : data.record->planner;
-  return name.empty() ? PlannerKind::Contour : plannersFromText(name).front();
+  return plannerKindOf(*data.header, *data.record);
 }
 
 std::shared_ptr<const WhatIfContext> makeWhatIfContext(const StepData& data, Exclusions exclusions) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "io/error.h"
-#include "viewer/step_maps.h"
 
 namespace vantage {
 namespace {
@@ -45,6 +44,19 @@ StepData RunSession::load(int step) {
     data.states = partOf(map, map->states);
   }
   return data;
+}
+
+void RunSession::prepare(int step) {
+  constexpr std::size_t kMostMaps = 2;
+  const auto found = std::ranges::find(summaries_, step, &StepSummary::step);
+  if (found == summaries_.end()) return;
+  StepRecord record;
+  record.planner = found->planner;
+  if (usesOctree(plannerKindOf(*header_, record)) && header_->octree) {
+    if (octrees_.hasRoom(kMostMaps)) octreeAt(step);
+  } else if (volumes_.hasRoom(kMostMaps)) {
+    volumeAt(step);
+  }
 }
 
 std::shared_ptr<const RunSession::VolumeMap> RunSession::volumeAt(int step) {

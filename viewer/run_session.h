@@ -40,6 +40,10 @@ class RunSession {
   /// replaced while it was being written; std::runtime_error if the map does not fit in memory.
   StepData load(int step);
 
+  /// Brings a map that nobody holds to a step ahead of time, so that load() finds it there. Nothing happens
+  /// if that would take a third map, or there is no such step. \throws as load().
+  void prepare(int step);
+
   /// What the steps before leave out in their successors (executed and disappointing views). \throws as
   /// load().
   Exclusions exclusionsBefore(int step);

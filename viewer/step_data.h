@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "core/exploration/planner_kind.h"
 #include "viewer/scene_frame.h"
 
 namespace vantage {
@@ -24,5 +25,9 @@ struct StepData {
     return {*header, *record, *states, &header->truth, pyramid.get(), tree.get(), states};
   }
 };
+
+/// Planner of a recorded step; of the run's first if the record does not say. \throws std::invalid_argument
+/// for a name that is not known.
+PlannerKind plannerKindOf(const RunHeader& header, const StepRecord& record);
 
 }  // namespace vantage

@@ -10,6 +10,7 @@
 
 #include "core/geometry/check.h"
 #include "io/error.h"
+#include "io/scene_table.h"
 #include "io/suggest.h"
 
 namespace vantage {
@@ -55,6 +56,10 @@ constexpr std::pair<const char*, Eigen::Vector3d Eye::*> kEyeVectors[] = {
 
 constexpr std::pair<const char*, ColorMap> kColorMaps[] = {{"viridis", ColorMap::Viridis},
                                                            {"cividis", ColorMap::Cividis}};
+
+void finish(const SceneTable& table, UnknownKeys unknown) {
+  if (unknown == UnknownKeys::Refused) table.finish();
+}
 
 /// Settings are validated after each key, so that the message can name its line.
 template <class Settings>
@@ -183,7 +188,8 @@ toml::array layersToToml(const LayerSet& layers) {
   return names;
 }
 
-void readStyle(SceneTable& table, LayerStyle& style) {
+void readStyle(const toml::table& part, const std::string& source, UnknownKeys unknown, LayerStyle& style) {
+  SceneTable table(part, source, "style");
   for (const auto& [key, member] : kStyleNumbers) {
     style.*member = table.number(key, style.*member);
     check(style, table, key);
@@ -200,6 +206,7 @@ void readStyle(SceneTable& table, LayerStyle& style) {
   style.utility_factor = readFactor(table, style.utility_factor);
   readColorMap(table, style.color_map);
   readSlices(table, style);
+  finish(table, unknown);
 }
 
 toml::table styleToToml(const LayerStyle& style) {
@@ -220,7 +227,8 @@ toml::table styleToToml(const LayerStyle& style) {
   return table;
 }
 
-void readCamera(SceneTable& table, CameraView& camera) {
+void readCamera(const toml::table& part, const std::string& source, UnknownKeys unknown, CameraView& camera) {
+  SceneTable table(part, source, "camera");
   for (const auto& [key, member, unit] : kCameraNumbers) {
     table.accept({key});
     if (table.has(key)) camera.*member = table.number(key) * unit;
@@ -235,6 +243,9 @@ void readCamera(SceneTable& table, CameraView& camera) {
   if (focus != "object" && focus != "workspace")
     table.fail("focus", "there is no focus '" + focus + "'; allowed: workspace, object");
   camera.object = focus == "object";
+  table.accept({"eye"});
+  if (const toml::table* eye = tomlPart(part, "eye", source)) camera.eye = readEye(*eye, source, unknown);
+  finish(table, unknown);
 }
 
 toml::table cameraToToml(const CameraView& camera) {
@@ -243,12 +254,14 @@ toml::table cameraToToml(const CameraView& camera) {
   for (const auto& [key, member] : kCameraFrame)
     if (camera.*member) table.insert(key, *(camera.*member));
   table.insert("focus", camera.object ? "object" : "workspace");
+  if (camera.eye) table.insert("eye", eyeToToml(*camera.eye));
   return table;
 }
 
-void readLooks(const toml::table& looks, const std::string& source, ViewSettings& view) {
+void readLooks(const toml::table& looks, const std::string& source, UnknownKeys unknown, ViewSettings& view) {
   for (const auto& [name, node] : looks) {
     const auto layer = layerNamed(name.str());
+    if (!layer && unknown == UnknownKeys::Ignored) continue;
     if (!layer) refuseLayer(name.source(), source, std::string(name.str()));
     if (!node.is_table())
       throw InputError(tomlPlace(source, node.source()),
@@ -260,7 +273,7 @@ void readLooks(const toml::table& looks, const std::string& source, ViewSettings
       check(look, table, key);
     }
     readColorMap(table, look.color_map);
-    table.finish();
+    finish(table, unknown);
   }
 }
 
@@ -277,9 +290,11 @@ toml::table looksToToml(const ViewSettings& view) {
   return looks;
 }
 
-Box readBox(SceneTable& table) {
+Box readBox(const toml::table& part, const std::string& source, UnknownKeys unknown) {
+  SceneTable table(part, source, "box");
   const Box box(vectorOf(table, "min_m"), vectorOf(table, "max_m"));
   if (box.isEmpty()) table.fail("max_m", "'max_m' lies below 'min_m'");
+  finish(table, unknown);
   return box;
 }
 
@@ -287,7 +302,8 @@ toml::table boxToToml(const Box& box) {
   return toml::table{{"min_m", arrayOf(box.min())}, {"max_m", arrayOf(box.max())}};
 }
 
-Eye readEye(SceneTable& table) {
+Eye readEye(const toml::table& part, const std::string& source, UnknownKeys unknown) {
+  SceneTable table(part, source, "eye");
   Eye eye;
   for (const auto& [key, member] : kEyeVectors) eye.*member = vectorOf(table, key);
   eye.fov_rad = table.number("fov_deg") * kRadians;
@@ -298,6 +314,7 @@ Eye readEye(SceneTable& table) {
   } catch (const std::invalid_argument& error) {
     table.fail("position_m", error.what());
   }
+  finish(table, unknown);
   return eye;
 }
 

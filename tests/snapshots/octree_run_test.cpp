@@ -10,7 +10,7 @@
 #include "snapshots/comparison.h"
 #include "snapshots/snapshot.h"
 #include "tests/support/synthetic_record.h"
-#include "viewer/step_maps.h"
+#include "viewer/run_session.h"
 
 namespace vantage {
 namespace {
@@ -131,12 +131,11 @@ TEST_F(OctreeRun, AFileIsWrittenWhereAFolderIs) {
 }
 
 TEST_F(OctreeRun, StatesComeFromTheMapOfTheStep) {
-  const RunReader reader(runPath("both"));
-  StepMaps maps(reader);
-  const StepRecord first = reader.step(1, RunDetail::NoVolume), second = reader.step(2, RunDetail::NoVolume);
-  EXPECT_EQ(maps.at(first).states.geometry(), reader.header().volume);
-  EXPECT_EQ(maps.at(first).pyramid, nullptr);
-  const SceneFrame frame = maps.at(second);
+  RunSession session(runPath("both"));
+  const StepData first = session.load(1), second = session.load(2);
+  EXPECT_EQ(first.states->geometry(), session.header()->volume);
+  EXPECT_EQ(first.pyramid, nullptr);
+  const SceneFrame frame = second.frame();
   ASSERT_NE(frame.pyramid, nullptr);
   const test::SyntheticOctreeRun made = test::makeSyntheticOctreeRun();
   ASSERT_EQ(frame.states.geometry(), made.pyramid.finest().geometry());

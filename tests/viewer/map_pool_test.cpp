@@ -60,6 +60,17 @@ TEST(MapPool, BringsTheNearestFreeMapToAStep) {
   EXPECT_EQ(pool.at(2, make, move).get(), far);
 }
 
+TEST(MapPool, HasRoomWhileAMapIsFreeOrOneMoreIsAllowed) {
+  MapPool<Counter> pool;
+  EXPECT_TRUE(pool.hasRoom(2));
+  auto a = pool.at(1, make, move);
+  EXPECT_TRUE(pool.hasRoom(2));
+  const auto b = pool.at(2, make, move);
+  EXPECT_FALSE(pool.hasRoom(2));
+  a.reset();
+  EXPECT_TRUE(pool.hasRoom(2));
+}
+
 TEST(MapPool, ThrowsAMapAwayThatCouldNotBeBroughtToItsStep) {
   MapPool<Counter> pool;
   const auto fail = [](Counter& counter, int) {

@@ -49,6 +49,7 @@ Preferences unusual() {
   p.view.camera.zoom = 1.5;
   p.view.camera.front_m = 0.35;
   p.view.camera.height_share = 0.55;
+  p.view.camera.eye = Eye{{0.5, 0.25, 2.0}, {0.0, 0.0, 0.5}, Eigen::Vector3d::UnitX(), 0.9};
   p.view.look(Layer::RankedViews) = {0.25, 2.0, ColorMap::Viridis};
   p.view.look(Layer::Unknown).opacity = 0.5;
   p.view.clip = Box(Eigen::Vector3d(-0.5, -0.25, 0.0), Eigen::Vector3d(0.5, 0.75, 0.4));
@@ -75,6 +76,8 @@ void expectEqual(const ViewSettings& a, const ViewSettings& b) {
   EXPECT_EQ(a.camera.zoom, b.camera.zoom);
   EXPECT_EQ(a.camera.front_m, b.camera.front_m);
   EXPECT_EQ(a.camera.height_share, b.camera.height_share);
+  ASSERT_EQ(a.camera.eye.has_value(), b.camera.eye.has_value());
+  if (a.camera.eye) expectEqual(*a.camera.eye, *b.camera.eye);
   EXPECT_EQ(a.looks, b.looks);
   ASSERT_EQ(a.clip.has_value(), b.clip.has_value());
   if (!a.clip) return;

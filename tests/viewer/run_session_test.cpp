@@ -107,6 +107,21 @@ TEST(RunSession, WhatItHandsOutNeverChangesAndOutlivesIt) {
   }
 }
 
+TEST(RunSession, PreparingAStepChangesNothingThatIsHeldAndLoadsAsBefore) {
+  const TestFolder folder;
+  const std::vector<TsdfVolume> expected = volumesOf("contour");
+  writeSteps(folder / "a.vantage", "contour");
+  RunSession session(folder / "a.vantage");
+  StepData shown = session.load(1);
+  for (const int step : {2, 3, 2, 5, 1, kSteps + 1}) {
+    session.prepare(step);
+    session.prepare(99);
+    EXPECT_TRUE(std::ranges::equal(shown.volume->voxels(), expected[shown.record->step].voxels()));
+    shown = session.load(step);
+    EXPECT_TRUE(std::ranges::equal(shown.volume->voxels(), expected[step].voxels())) << step;
+  }
+}
+
 TEST(RunSession, ShowsOctreePlannersTheirOctree) {
   const TestFolder folder;
   writeSteps(folder / "a.vantage", "hierarchical");
