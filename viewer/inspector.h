@@ -23,10 +23,10 @@ class InspectorModel;
 struct InspectorPorts {
   /// A picture of a view with caption and legend, as snapshots make it.
   std::function<RgbImage(const SceneFrame&, const ViewSettings&, GlContext&, int width, int height)> picture;
-  std::function<void(const std::string&)> copy;           ///< to the clipboard; may be empty
-  std::function<std::string()> pasted = nullptr;          ///< from the clipboard; may be empty
-  std::function<void()> wake = [] {};                     ///< called from any thread: draw a frame soon
-  std::function<void(const std::string&)> log = nullptr;  ///< details for the log; may be empty
+  std::function<void(const std::string&)> copy = [](const std::string&) {};  ///< to the clipboard
+  std::function<void()> wake = [] {};  ///< called from any thread: draw a frame soon
+  /// The view of a recipe file; called from any thread. Without it recipes cannot be opened.
+  std::function<ViewSettings(const std::filesystem::path&)> recipe = nullptr;
 };
 
 /// The contents of the inspector's window: panels around the 3-D view. Knows no window system; whoever owns a

@@ -9,6 +9,7 @@
 #include "tests/support/process.h"
 #include "tests/support/recorded_run.h"
 #include "tests/viewer/inspector_driver.h"
+#include "viewer/commands.h"
 
 namespace vantage {
 namespace {

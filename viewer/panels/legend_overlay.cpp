@@ -9,6 +9,8 @@
 namespace vantage {
 namespace {
 
+constexpr float kTextScale = 0.87f;  ///< of the legend, which stands in the way of the scene
+
 /// The sign of a legend entry in a square of the given size.
 void drawMark(ImDrawList& draw, ImVec2 at, float size, const LegendEntry& entry, ImU32 ink) {
   const ImVec2 end{at.x + size, at.y + size}, middle{at.x + size / 2, at.y + size / 2};
@@ -82,6 +84,7 @@ void legendOverlay(PanelContext& context, double left, double top, double right,
                                       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoInputs |
                                       ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing;
   if (ImGui::Begin("legend", nullptr, kFlags)) {
+    ImGui::SetWindowFontScale(kTextScale);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float size = ImGui::GetFontSize() * 0.8f;
     for (const LayerNotes* layer : notes) {

@@ -15,7 +15,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kInsetWidth_em = 16.0;
+constexpr double kInsetWidth_em = 14.0;
 
 SceneTheme sceneTheme(const Theme& theme) {
   return {theme.paper, theme.ink};
@@ -335,7 +335,7 @@ void ViewPanel::inset(PanelContext& context, double right, double top) {
   draw.AddRectFilled(low, {high.x, high.y + line + 6.0f}, packed(context.theme.panel, 0.9));
   draw.AddImage(textureId(inset.texture.handle()), low, high);
   draw.AddRect(low, {high.x, high.y + line + 6.0f}, packed(context.theme.chosen), 0.0f, 0, 2.0f);
-  const std::string title = "view " + std::to_string(*view) + ": what it is predicted to see";
+  const std::string title = "view " + std::to_string(*view) + ": predicted to see";
   draw.AddText({low.x + 5.0f, high.y + 3.0f}, packed(context.theme.ink), title.c_str());
   context.widgets.note("view/inset", {low.x, low.y, high.x, high.y, true});
 }

@@ -52,11 +52,13 @@ bool Widgets::choice(const std::string& name, const std::string& label, bool act
 bool Widgets::slider(const std::string& name, const std::string& label, double& value, double low,
                      double high, const char* format, bool logarithmic, double width_px) {
   ImGui::SetNextItemWidth(width_px > 0.0 ? static_cast<float>(width_px) : -FLT_MIN);
+  const float width = ImGui::CalcItemWidth();
   const ImGuiSliderFlags flags =
       ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
   const bool moved = ImGui::SliderScalar(idOf(name, label).c_str(), ImGuiDataType_Double, &value, &low, &high,
                                          format, flags);
   note(name);
+  boxes_[name].right = boxes_[name].left + width;  // the track alone, without its label
   return moved;
 }
 
