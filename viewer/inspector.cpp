@@ -124,7 +124,7 @@ WindowActions Inspector::State::actions() {
   a.measuring = [this] { return view.measuring(); };
   a.select_view = [this](int by) {
     candidates.table.show(model.recorded(), model.shown());
-    if (const auto view = candidates.table.neighbour(model.explainedView(), by)) model.selected_view = view;
+    if (const auto next = candidates.table.neighbour(model.explainedView(), by)) model.selected_view = next;
   };
   a.orbit = [this](double left_rad, double up_rad) { view.orbitBy(left_rad, up_rad); };
   a.zoom = [this](double factor) { view.zoomBy(factor); };
