@@ -18,7 +18,8 @@ constexpr CandidateColumnText kOccupied{CandidateColumn::Occupied, "occupied", "
 constexpr CandidateColumnText kDistance{CandidateColumn::Distance, "distance", "away, m",
                                         "Straight distance from where the sensor is, metres", false};
 constexpr CandidateColumnText kVerdict{CandidateColumn::Verdict, "verdict", "verdict",
-                                       "Chosen, ranked lower, or why it fell out", false};
+                                       "Chosen, behind it, or why it fell out: select the view to read more",
+                                       false};
 
 /// The row's value has no place among the others of its column.
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -151,7 +152,8 @@ void CandidateTable::show(const StepData& recorded, const StepData& shown) {
   if (!shown.empty()) hierarchical_ = shown.record->utilities != nullptr;
   // Nothing is tried out, but segments that the run did not need may be scored by now: those places count
   // too.
-  if (shown.header == recorded.header) recorded_rows_ = rows_;
+  compares_ = shown.header != recorded.header;
+  if (!compares_) recorded_rows_ = rows_;
   if (!recorded.empty() && !shown.empty() && sameCandidates(recorded.frame(), shown.frame()))
     compareRanks(rows_, recorded_rows_);
   stale_ = true;

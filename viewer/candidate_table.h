@@ -69,6 +69,8 @@ class CandidateTable {
   const std::vector<std::uint32_t>& listed();
   const CandidateFilter& filter() const { return filter_; }
   bool hierarchical() const { return hierarchical_; }
+  /// Something is tried out, so that places may differ from the recorded ones.
+  bool compares() const { return compares_; }
   /// Row of a candidate; null if there is none.
   const CandidateRow* find(std::uint32_t id) const;
   /// Its place in listed(); empty if it is not listed.
@@ -86,7 +88,7 @@ class CandidateTable {
   std::vector<std::uint32_t> listed_;
   CandidateFilter filter_;
   CandidateColumn column_ = CandidateColumn::Rank;
-  bool descending_ = false, hierarchical_ = false, stale_ = true;
+  bool descending_ = false, hierarchical_ = false, compares_ = false, stale_ = true;
   std::uint64_t revision_ = 0;
 };
 

@@ -188,23 +188,25 @@ std::string verdictWord(const CandidateRow& row) {
     case ViewVerdict::Chosen:
       return "chosen";
     case ViewVerdict::Eligible:
-      return "ranked lower";
+      return "behind";
     case ViewVerdict::LaterSegment:
-      return "later segment";
+      return "later seg.";
     case ViewVerdict::Unreachable:
-      return refusalWord(row.reachability);
+      return row.reachability == Reachability::NoPath    ? "no path"
+             : row.reachability == Reachability::NoFrame ? "no frame"
+                                                         : refusalWord(row.reachability);
     case ViewVerdict::BelowThreshold:
-      return "too little gain";
+      return "little gain";
     case ViewVerdict::TakenBefore:
-      return "taken before";
+      return "taken";
     case ViewVerdict::NotFree:
       return "not free";
     case ViewVerdict::LittleSurface:
-      return "little surface";
+      return "registration";
     case ViewVerdict::Stopped:
-      return "below stop rule";
+      return "stopped";
     case ViewVerdict::Waiting:
-      return "waits for others";
+      return "waits";
     case ViewVerdict::Pending:
       return "not scored yet";
   }

@@ -74,7 +74,7 @@ bool sameCandidates(const SceneFrame& a, const SceneFrame& b);
 /// Fills `change` of the current rows with what is different from the recorded ones of the same candidates.
 void compareRanks(std::vector<CandidateRow>& current, const std::vector<CandidateRow>& recorded);
 
-/// What became of it in a word or two: "chosen", "below threshold", "in collision".
+/// What became of it in a word or two, for a narrow column: "chosen", "behind", "in collision".
 std::string verdictWord(const CandidateRow& row);
 
 }  // namespace vantage

@@ -141,11 +141,13 @@ TEST(CandidateTable, ComparesWithAllThatWasScoredBeforeAnythingWasTried) {
   table.show(recorded, all);
   ASSERT_NE(table.find(999999), nullptr);
   EXPECT_EQ(table.find(999999)->change.kind, RankChange::Kind::Same);
+  EXPECT_FALSE(table.compares());
   StepData tried = all;
   auto header = std::make_shared<RunHeader>(run.header);
   header->contour_config.gain.gain_threshold = 4999.0;
   tried.header = header;
   table.show(recorded, tried);
+  EXPECT_TRUE(table.compares());
   EXPECT_EQ(table.find(999999)->change.kind, RankChange::Kind::Up);
 }
 

@@ -16,15 +16,18 @@ namespace {
 float widthOf(CandidateColumn column) {
   switch (column) {
     case CandidateColumn::Rank:
-    case CandidateColumn::Change:
-    case CandidateColumn::Segment:
       return 2.7f;
+    case CandidateColumn::Change:
+      return 2.3f;
     case CandidateColumn::View:
-      return 3.0f;
+      return 3.2f;
     case CandidateColumn::Gain:
-      return 3.6f;
+    case CandidateColumn::Utility:
+      return 3.5f;
+    case CandidateColumn::Segment:
+      return 2.3f;
     case CandidateColumn::Verdict:
-      return 6.6f;
+      return 5.6f;
     default:
       return 4.6f;
   }
@@ -150,6 +153,9 @@ class Table {
         flags |= ImGuiTableColumnFlags_DefaultSort | ImGuiTableColumnFlags_NoHide;
       ImGui::TableSetupColumn(column.name.data(), flags, widthOf(column.column) * ImGui::GetFontSize());
     }
+    for (int i = 0; i < static_cast<int>(columns_.size()); ++i)
+      if (columns_[i].column == CandidateColumn::Change)
+        ImGui::TableSetColumnEnabled(i, state_.table.compares());
     ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
     for (int i = 0; i < static_cast<int>(columns_.size()); ++i) {
       if (!ImGui::TableSetColumnIndex(i)) continue;
@@ -160,8 +166,10 @@ class Table {
   }
 
   void sort() {
-    const ImGuiTableSortSpecs* specs = ImGui::TableGetSortSpecs();
+    ImGuiTableSortSpecs* specs = ImGui::TableGetSortSpecs();
     if (!specs || specs->SpecsCount < 1) return;
+    if (specs->SpecsDirty) ImGui::SetScrollY(0.0f);
+    specs->SpecsDirty = false;
     const ImGuiTableColumnSortSpecs& first = specs->Specs[0];
     state_.table.sortBy(columns_[first.ColumnIndex].column,
                         first.SortDirection == ImGuiSortDirection_Descending);
@@ -260,9 +268,11 @@ void countsLine(CandidateTable& table) {
   const auto ranked = std::ranges::count_if(rows, [](const CandidateRow& r) { return r.rank.has_value(); });
   const auto pending = std::ranges::count_if(rows, &CandidateRow::pending);
   std::string text = grouped(ranked) + " of " + plural(rows.size() - pending, "view") + " ranked";
-  if (pending > 0) text += ", " + plural(pending, "segment") + " not scored yet";
+  if (pending > 0) text += ", " + plural(pending, "segment") + " pending";
   if (table.listed().size() != rows.size()) text += "; " + grouped(table.listed().size()) + " listed";
-  ImGui::TextDisabled("%s", text.c_str());
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
 }
 
 }  // namespace

@@ -11,17 +11,6 @@
 namespace vantage {
 namespace {
 
-/// What the two views are called.
-struct Names {
-  std::string view, other;
-};
-
-Names namesOf(const Explanation& e) {
-  const std::string other = e.other ? std::to_string(*e.other) : "";
-  return {"view " + std::to_string(e.id) + (e.is_winner ? ", chosen" : ""),
-          !e.other ? "" : "view " + other + (e.is_winner ? ", the next best" : ", chosen")};
-}
-
 /// The view is filled, what it is measured against is outlined and hatched.
 void bar(const PanelContext& context, ImVec2 low, ImVec2 high, double share, bool is_view) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -62,7 +51,7 @@ class Bars {
   }
 
   void legend() {
-    const Names names = namesOf(explanation_);
+    const std::string id = std::to_string(explanation_.id);
     const auto entry = [&](const std::string& name, bool is_view) {
       const ImVec2 at = ImGui::GetCursorScreenPos();
       const float size = ImGui::GetFontSize();
@@ -71,23 +60,28 @@ class Bars {
       ImGui::SameLine();
       ImGui::TextUnformatted(name.c_str());
     };
-    entry(names.view, true);
-    if (names.other.empty()) return;
+    entry((explanation_.is_winner ? "chosen: " : "view ") + id, true);
+    if (!explanation_.other) return;
     ImGui::SameLine(0.0f, ImGui::GetFontSize());
-    entry(names.other, false);
+    entry((explanation_.is_winner ? "next: " : "chosen: ") + std::to_string(*explanation_.other), false);
   }
 
+  /// One bar if both views have the same, of the same segment say.
   void barsOf(const ViewFactor& factor) {
     ImGui::TextUnformatted(factor.name.c_str());
     context_.widgets.note("explain/factor " + factor.name);
     tip(factor.about);
-    if (!factor.limit.empty()) {
+    const bool both = explanation_.other && factor.view == factor.other;
+    const std::string note = !both                  ? factor.limit
+                             : factor.limit.empty() ? "(both)"
+                                                    : "(both)  " + factor.limit;
+    if (!note.empty()) {
       ImGui::SameLine();
-      ImGui::TextDisabled("%s", factor.limit.c_str());
+      ImGui::TextDisabled("%s", note.c_str());
     }
     const ImVec2 from = ImGui::GetCursorScreenPos();
     line(factor.view, true);
-    if (explanation_.other) line(factor.other, false);
+    if (explanation_.other && factor.view != factor.other) line(factor.other, false);
     if (!factor.limit_share) return;
     const float x = from.x + static_cast<float>(*factor.limit_share) * width_;
     const float bottom = ImGui::GetCursorScreenPos().y - ImGui::GetStyle().ItemSpacing.y;

@@ -62,18 +62,26 @@ std::string nameOf(const StepSummary& step) {
   return "step " + std::to_string(step.step);
 }
 
+/// "10.6" or "12 345"; nothing was predicted: "–".
 std::string ratioText(const GainPoint& point) {
-  return point.predicted > 0.0 ? rounded(100.0 * point.realised / point.predicted, 3) + " %"
-                               : "nothing predicted";
+  if (!(point.predicted > 0.0)) return "–";
+  const double ratio = point.realised / point.predicted;
+  return ratio < 1000.0 ? rounded(ratio, 3) : whole(ratio);
 }
 
 class Scatter {
  public:
   Scatter(PanelContext& context, std::vector<GainPoint> points)
       : context_(context), points_(std::move(points)), planners_(plannersOf(context.model.steps())) {
-    for (const GainPoint& p : points_) most_ = std::max({most_, p.predicted, p.realised});
-    ticks_ = ticks(most_ > 0.0 ? most_ : 1.0, 4);
-    most_ = ticks_.back();
+    double least = 1e18, most = 1.0;
+    for (const GainPoint& p : points_) {
+      for (const double voxels : {p.predicted, p.realised}) {
+        if (voxels > 0.0) least = std::min(least, voxels);
+        most = std::max(most, voxels);
+      }
+    }
+    low_ = std::floor(std::log10(std::min(least, most)));
+    high_ = std::max(low_ + 1.0, std::ceil(std::log10(most)));
   }
 
   void draw() {
@@ -82,6 +90,7 @@ class Scatter {
     diagonal();
     const GainPoint* hovered = nearest();
     for (const GainPoint& p : points_) point(p, hovered == &p);
+    for (const GainPoint& p : points_) label(p);
     if (!hovered) return;
     describe(*hovered);
     ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
@@ -108,12 +117,12 @@ class Scatter {
   void layOut() {
     const float em = ImGui::GetFontSize();
     float widest = 0.0f;
-    for (const double tick : ticks_)
-      widest = std::max(widest, ImGui::CalcTextSize(shortNumber(tick).c_str()).x);
+    for (double decade = low_; decade <= high_; ++decade)
+      widest = std::max(widest, ImGui::CalcTextSize(tickText(decade).c_str()).x);
     const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
     const float left = widest + 0.7f * em, top = 1.6f * em, bottom = 2.8f * em, right = 1.2f * em;
     const float side = std::max(6.0f * em, std::min(room.x - left - right, room.y - top - bottom));
-    area_ = {{at.x + left, at.y + top}, {at.x + left + side, at.y + top + side}, 0.0, most_, 0.0, most_};
+    area_ = {{at.x + left, at.y + top}, {at.x + left + side, at.y + top + side}, low_, high_, low_, high_};
     ImGui::InvisibleButton("scatter", {left + side + right, top + side + bottom});
     context_.widgets.note("gains/plot");
     over_ = ImGui::IsItemHovered();
@@ -126,17 +135,17 @@ class Scatter {
     const float em = ImGui::GetFontSize();
     const ImVec2 low = area_.low, high = area_.high;
     draw.AddRectFilled(low, high, packed(theme.paper));
-    for (const double tick : ticks_) {
-      const ImVec2 x = area_.at(tick, 0.0), y = area_.at(0.0, tick);
+    for (double decade = low_; decade <= high_; ++decade) {
+      const ImVec2 x = area_.at(decade, low_), y = area_.at(low_, decade);
       draw.AddLine({x.x, low.y}, {x.x, high.y}, packed(theme.faint, 0.25));
       draw.AddLine({low.x, y.y}, {high.x, y.y}, packed(theme.faint, 0.25));
-      const std::string text = shortNumber(tick);
+      const std::string text = tickText(decade);
       const ImVec2 size = ImGui::CalcTextSize(text.c_str());
       draw.AddText({x.x - size.x / 2, high.y + 0.2f * em}, packed(theme.ink), text.c_str());
       draw.AddText({low.x - size.x - 0.4f * em, y.y - size.y / 2}, packed(theme.ink), text.c_str());
     }
     draw.AddRect(low, high, packed(theme.ink, 0.6));
-    const char *across = "predicted, voxels", *up = "realised, voxels";
+    const char *across = "predicted, voxels (logarithmic)", *up = "realised, voxels (logarithmic)";
     draw.AddText({(low.x + high.x - ImGui::CalcTextSize(across).x) / 2, high.y + 1.4f * em},
                  packed(theme.ink), across);
     draw.AddText({low.x, low.y - 1.4f * em}, packed(theme.ink), up);
@@ -145,11 +154,23 @@ class Scatter {
   void diagonal() {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     constexpr int kDashes = 24;
+    const auto at = [&](int dash) {
+      const double decade = low_ + (high_ - low_) * dash / kDashes;
+      return area_.at(decade, decade);
+    };
     for (int i = 0; i < kDashes; i += 2)
-      draw.AddLine(area_.at(most_ * i / kDashes, most_ * i / kDashes),
-                   area_.at(most_ * (i + 1) / kDashes, most_ * (i + 1) / kDashes),
-                   packed(context_.theme.ink, 0.6), 1.5f);
+      draw.AddLine(at(i), at(i + 1), packed(context_.theme.ink, 0.6), 1.5f);
   }
+
+  /// Values span decades, so both axes are logarithmic; what is nothing lies on the axis.
+  ImVec2 placeOf(const GainPoint& p) const {
+    const auto decade = [&](double voxels) {
+      return voxels > 0.0 ? std::clamp(std::log10(voxels), low_, high_) : low_;
+    };
+    return area_.at(decade(p.predicted), decade(p.realised));
+  }
+
+  static std::string tickText(double decade) { return shortNumber(std::pow(10.0, decade)); }
 
   /// The point under the mouse.
   const GainPoint* nearest() const {
@@ -157,7 +178,7 @@ class Scatter {
     const GainPoint* best = nullptr;
     float best_px = 2.0f * radius();
     for (const GainPoint& p : points_) {
-      const ImVec2 at = area_.at(p.predicted, p.realised);
+      const ImVec2 at = placeOf(p);
       const float away_px = std::hypot(at.x - mouse.x, at.y - mouse.y);
       if (over_ && away_px < best_px) {
         best = &p;
@@ -169,18 +190,35 @@ class Scatter {
 
   void point(const GainPoint& p, bool hovered) {
     const Theme& theme = context_.theme;
-    const ImVec2 at = area_.at(p.predicted, p.realised);
+    const ImVec2 at = placeOf(p);
     const float r = radius();
     drawMark(at, markOf(theme, planners_, p.step->planner), hovered ? 1.3f * r : r, true);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     if (p.index == context_.model.place().step) draw.AddCircle(at, 1.9f * r, packed(theme.accent), 0, 2.0f);
-    const std::string text = std::to_string(p.step->step);
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    const bool at_edge = at.x + r + 4.0f + size.x > area_.high.x;
-    draw.AddText({at_edge ? at.x - r - 4.0f - size.x : at.x + r + 4.0f, at.y - r - size.y * 0.6f},
-                 packed(theme.ink), text.c_str());
     context_.widgets.note("gains/point " + std::to_string(p.step->step),
                           {at.x - r, at.y - r, at.x + r, at.y + r, true});
+  }
+
+  /// The step's number, where it covers no other point.
+  void label(const GainPoint& p) {
+    const std::string text = std::to_string(p.step->step);
+    const ImVec2 at = placeOf(p), size = ImGui::CalcTextSize(text.c_str());
+    const float r = radius(), dx = r + 3.0f;
+    const ImVec2 places[] = {{at.x + dx, at.y - size.y * 0.9f},
+                             {at.x - dx - size.x, at.y - size.y * 0.9f},
+                             {at.x + dx, at.y - size.y * 0.1f},
+                             {at.x - dx - size.x, at.y - size.y * 0.1f}};
+    const auto isFree = [&](ImVec2 place) {
+      return place.x > area_.low.x && place.x + size.x < area_.high.x &&
+             std::ranges::none_of(points_, [&](const GainPoint& other) {
+               const ImVec2 o = placeOf(other);
+               return &other != &p && o.x > place.x - r && o.x < place.x + size.x + r && o.y > place.y - r &&
+                      o.y < place.y + size.y + r;
+             });
+    };
+    const auto found = std::ranges::find_if(places, isFree);
+    ImGui::GetWindowDrawList()->AddText(found == std::end(places) ? places[0] : *found,
+                                        packed(context_.theme.ink), text.c_str());
   }
 
   void describe(const GainPoint& p) {
@@ -196,8 +234,7 @@ class Scatter {
   PanelContext& context_;
   std::vector<GainPoint> points_;
   std::vector<std::string> planners_;
-  std::vector<double> ticks_;
-  double most_ = 0.0;
+  double low_ = 0.0, high_ = 1.0;  ///< decades at the ends of both axes
   PlotArea area_;
   bool over_ = false, clicked_ = false;
 };
