@@ -83,6 +83,8 @@ void Viewport::State::draw(std::span<vtkRenderer* const> wanted) {
     renderer->GetLights()->Modified();
   }
   window->Render();
+  all->InitTraversal(at);
+  while (vtkRenderer* renderer = all->GetNextRenderer(at)) renderer->DrawOn();  // others may draw them too
 }
 
 /// Rough pictures are not smoothed, smaller where even that is slow, and lack the scene's fine parts.
