@@ -94,7 +94,7 @@ void Viewport::State::drawView(bool as_rough) {
   window->SetMultiSamples(as_rough ? 0 : kSamples);
   window->SetSize(std::max(kSmallest, static_cast<int>(std::lround(share * size.width))),
                   std::max(kSmallest, static_cast<int>(std::lround(share * size.height))));
-  scene.setRough(as_rough);
+  scene.setRough(as_rough, share);
   vtkRenderer* const view = scene.view();
   draw({&view, 1});
   keepPicture();
