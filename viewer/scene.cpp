@@ -141,6 +141,7 @@ struct Scene::State {
 
   void requireFrame(const char* caller) const;
   bool rough = false;
+  double share = 1.0;  ///< of the resolution
 
   void adjust(Layer layer, const ViewSettings& wanted) const;
   void build(Layer layer, const ViewSettings& wanted, const LayerStyle& base, const SceneTheme& wanted_theme);
@@ -155,8 +156,11 @@ void Scene::State::requireFrame(const char* caller) const {
 }
 
 void Scene::State::adjust(Layer layer, const ViewSettings& wanted) const {
-  if (const auto& layer_built = built[static_cast<std::size_t>(layer)])
-    layer_built->looks.apply(wanted.look(layer), isClipped(layer) ? &clip : nullptr, rough);
+  const auto& layer_built = built[static_cast<std::size_t>(layer)];
+  if (!layer_built) return;
+  LayerLook look = wanted.look(layer);
+  look.size *= share;
+  layer_built->looks.apply(look, isClipped(layer) ? &clip : nullptr, rough);
 }
 
 /// Builds a layer unless it stands, and adjusts it.
@@ -243,6 +247,7 @@ void Scene::show(const ViewSettings& settings, const Caption& caption, PageStyle
   style.line_scale *= std::max(0.5, unit);
   state_->shown = settings.layers;
   state_->rough = false;
+  state_->share = 1.0;
   state_->prepare(settings.layers, settings, style, {});
 
   state_->page_view = makeRenderer(palette::kPaper);
@@ -305,9 +310,10 @@ void Scene::placeEye(const CameraView& camera, double width_to_height) {
   setEye(eyeFor(*state_->frame, camera, state_->contents(state_->shown), width_to_height));
 }
 
-void Scene::setRough(bool rough) {
-  if (rough == state_->rough) return;
+void Scene::setRough(bool rough, double share) {
+  if (rough == state_->rough && share == state_->share) return;
   state_->rough = rough;
+  state_->share = share;
   for (int i = 0; i < kLayerCount; ++i)
     if (state_->settings.layers.has(static_cast<Layer>(i)))
       state_->adjust(static_cast<Layer>(i), state_->settings);
@@ -315,6 +321,7 @@ void Scene::setRough(bool rough) {
 
 vtkRenderer* Scene::inset(const Eye& eye, const LayerSet& layers) {
   state_->requireFrame("inset");
+  setRough(false);
   const Rgb& ground = state_->theme.background;
   if (!state_->inset) state_->inset = makeRenderer(ground);
   state_->inset->SetBackground(ground.r, ground.g, ground.b);

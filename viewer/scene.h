@@ -65,8 +65,9 @@ class Scene {
   /// std::invalid_argument for a view out of range, std::logic_error without a frame.
   void placeEye(const CameraView& camera, double width_to_height);
 
-  /// Leaves out of view() what makes a picture fine but slow, until switched off again.
-  void setRough(bool rough);
+  /// Leaves out of view() what makes a picture fine but slow, until switched off again. \param share of the
+  /// resolution at which the picture is drawn, to be stretched: lines and letters keep their sizes
+  void setRough(bool rough, double share = 1.0);
 
   /// The layers of the last arrange() seen from somewhere else, for a picture beside the view; layers that it
   /// lacks are built. One renderer for the scene's life, drawn in the window that draws view(), after it.

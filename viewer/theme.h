@@ -11,7 +11,8 @@ struct SceneTheme {
   bool operator==(const SceneTheme&) const = default;
 };
 
-/// The colour mixed with ink until it stands out from the background as it does from paper, 3:1 at most.
+/// The colour mixed with ink until it stands out from the background as it does from paper, 3:1 at most; one
+/// that is faint on paper is mixed with the background until it is faint there too.
 Rgb readable(Rgb color, const SceneTheme& theme);
 
 }  // namespace vantage

@@ -1,6 +1,8 @@
 #include "viewer/view_hits.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include "core/raycasting/first_hits.h"
@@ -51,6 +53,26 @@ VisibilityQuery queryOf(const SceneFrame& frame, const SegmentSearch& search) {
 
 }  // namespace
 
+double leavesAt(const Sphere& ball, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
+  const Eigen::Vector3d to_center = ball.center - origin;
+  const double along = to_center.dot(direction);
+  const double half2 = ball.radius * ball.radius - (to_center.squaredNorm() - along * along);
+  return half2 < 0.0 ? -1.0 : along + std::sqrt(half2);
+}
+
+double leavesAt(const Box& box, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
+  double enter = -std::numeric_limits<double>::infinity(), leave = std::numeric_limits<double>::infinity();
+  if (box.isEmpty()) return -1.0;
+  for (int a = 0; a < 3; ++a) {
+    const double low = (box.min()[a] - origin[a]) / direction[a],
+                 high = (box.max()[a] - origin[a]) / direction[a];
+    if (std::isnan(low) || std::isnan(high)) continue;  // along a face
+    enter = std::max(enter, std::min(low, high));
+    leave = std::min(leave, std::max(low, high));
+  }
+  return leave < enter ? -1.0 : leave;
+}
+
 const SegmentSearch* searchOf(const SceneFrame& frame, std::uint32_t id) {
   const StepRecord& record = frame.record;
   if (!record.search || !record.positions) return nullptr;
@@ -76,7 +98,12 @@ std::optional<ViewHits> castView(const SceneFrame& frame, const LayerStyle& styl
   hits.T_world_camera = rolledPose((*record.positions)[*id / rollsOf(frame)],
                                    static_cast<int>(*id % rollsOf(frame)), config.views);
   hits.rays = static_cast<std::uint64_t>(camera.width) * camera.height;
+  const Eigen::Vector3d origin = hits.T_world_camera.translation();
   for (const FirstHit& hit : firstHits(frame.states, camera, hits.T_world_camera, queryOf(frame, *search))) {
+    const Eigen::Vector3d along = (hits.T_world_camera.linear() * camera.ray(hit.u, hit.v)).normalized();
+    const double leaves_m = search->sphere.radius > 0.0 ? leavesAt(search->sphere, origin, along)
+                                                        : leavesAt(frame.header.workspace, origin, along);
+    if (!hit.counts && leaves_m <= hit.distance_m) continue;  // nothing of the region lies behind it
     const bool unknown = hit.state == VoxelState::Unknown;
     add(hit.too_near ? hits.too_near
         : hit.counts ? (unknown ? hits.counted : hits.known)

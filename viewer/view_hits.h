@@ -24,15 +24,20 @@ struct ViewHits {
   std::uint64_t rays = 0;   ///< cast
   RayGroup counted;         ///< end on unknown in the region: PoseScore::unknown
   RayGroup known;           ///< end on occupied voxels in the region: PoseScore::occupied
-  RayGroup occluded;        ///< end on occupied voxels outside it
-  RayGroup unknown_before;  ///< end on unknown outside it, which stops rays (D-B9)
-  RayGroup too_near;        ///< end nearer than the camera sees
+  RayGroup occluded;        ///< aim at the region and end on occupied voxels before it
+  RayGroup unknown_before;  ///< aim at it and end on unknown before it, which stops rays (D-B9)
+  RayGroup too_near;        ///< aim at it and end nearer than the camera sees
 };
 
 /// The rays of the style's view, else of the chosen one, else of the best that was scored; nothing for steps
 /// of other planners, without candidates or without a region for the view. \throws InputError naming the
 /// range if the style asks for a view that is no candidate.
 std::optional<ViewHits> castView(const SceneFrame& frame, const LayerStyle& style);
+
+/// Distance at which a ray leaves a ball or a box for good; negative if it never enters it. \param direction
+/// of unit length
+double leavesAt(const Sphere& ball, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction);
+double leavesAt(const Box& box, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction);
 
 /// The search that a candidate belongs to, scored or not; null if there is none (D-B33).
 const SegmentSearch* searchOf(const SceneFrame& frame, std::uint32_t id);

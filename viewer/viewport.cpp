@@ -83,6 +83,8 @@ void Viewport::State::draw(std::span<vtkRenderer* const> wanted) {
     renderer->GetLights()->Modified();
   }
   window->Render();
+  all->InitTraversal(at);
+  while (vtkRenderer* renderer = all->GetNextRenderer(at)) renderer->DrawOn();  // others may draw them too
 }
 
 /// Rough pictures are not smoothed, smaller where even that is slow, and lack the scene's fine parts.
@@ -92,7 +94,7 @@ void Viewport::State::drawView(bool as_rough) {
   window->SetMultiSamples(as_rough ? 0 : kSamples);
   window->SetSize(std::max(kSmallest, static_cast<int>(std::lround(share * size.width))),
                   std::max(kSmallest, static_cast<int>(std::lround(share * size.height))));
-  scene.setRough(as_rough);
+  scene.setRough(as_rough, share);
   vtkRenderer* const view = scene.view();
   draw({&view, 1});
   keepPicture();

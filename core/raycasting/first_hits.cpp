@@ -24,7 +24,7 @@ std::vector<FirstHit> firstHits(const StateGrid& grid, const PinholeCamera& came
       const auto ray = plainRay(bundle, slopeX(camera, u), slopeY(camera, v), length);
       const auto end = walkPlainly(bundle.grid.size, ray, stops);
       if (!end.hit) continue;
-      FirstHit hit;
+      FirstHit hit{u, v, static_cast<double>(end.t * length)};
       hit.voxel = grid.geometry().index(end.voxel[0], end.voxel[1], end.voxel[2]);
       hit.state = grid.at(end.voxel[0], end.voxel[1], end.voxel[2]);
       hit.too_near = end.t < bundle.min_range_m / length;

@@ -8,7 +8,9 @@ namespace vantage {
 
 /// Where one ray of an image ends, and whether it counts.
 struct FirstHit {
-  std::size_t voxel = 0;  ///< GridGeometry::index()
+  int u = 0, v = 0;         ///< pixel of the ray
+  double distance_m = 0.0;  ///< from the camera to the entry into the voxel
+  std::size_t voxel = 0;    ///< GridGeometry::index()
   VoxelState state = VoxelState::Unknown;
   bool too_near = false;  ///< nearer than the camera sees: it ends the ray and counts nothing
   bool counts = false;    ///< not too near, and its voxel lies in the region of the query

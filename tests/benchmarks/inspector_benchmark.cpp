@@ -44,7 +44,11 @@ struct Tabletop {
                               .camera = settings.camera,
                               .workspace = config.workspace,
                               .config = config.contour};
-    const ReachPose reach = [](const Pose&) { return MotionPlan{}; };
+    const ReachPose reach = [](const Pose&) {
+      MotionPlan plan;
+      plan.verdict = Reachability::Reachable;
+      return plan;
+    };
     planView(record, input, reach, [](Stage) {}, {});
     header.planner = "contour";
     header.camera = settings.camera;

@@ -189,7 +189,9 @@ TEST(Readable, LeavesWhatStandsOutAndLightensWhatDoesNot) {
   const SceneTheme dark{rgb(24, 26, 30), rgb(230, 232, 235)};
   EXPECT_EQ(readable(palette::kPath, {}), palette::kPath);
   EXPECT_EQ(readable(palette::kUnknown, dark), palette::kUnknown);
-  EXPECT_EQ(readable(palette::kRule, dark), palette::kRule);
+  EXPECT_EQ(readable(palette::kRule, {}), palette::kRule);
+  EXPECT_LT(readable(palette::kRule, dark).r, 0.5) << "what is faint on paper is faint in the dark";
+  EXPECT_GT(readable(palette::kRule, dark).r, 0.15);
   EXPECT_GT(readable(palette::kSensor, dark).r, 0.3);
   EXPECT_GT(readable(palette::kInk, dark).g, 0.3);
 }

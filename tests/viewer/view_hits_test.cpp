@@ -86,6 +86,19 @@ TEST(ViewHits, GroupsAreWhatTheirNamesSay) {
   EXPECT_LE(rays, hits->rays);
 }
 
+TEST(ViewHits, RaysLeaveBallsAndBoxesWhereGeometrySays) {
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), far(-3.0, 0.0, 0.0);
+  EXPECT_NEAR(leavesAt(Sphere{{0, 0, 0}, 1.0}, far, x), 4.0, 1e-12);
+  EXPECT_NEAR(leavesAt(Sphere{{0, 0.6, 0}, 1.0}, far, x), 3.8, 1e-12);
+  EXPECT_LT(leavesAt(Sphere{{0, 2, 0}, 1.0}, far, x), 0.0);
+  EXPECT_LT(leavesAt(Sphere{{0, 0, 0}, 1.0}, far, -x), 0.0) << "behind the ray";
+  const Box box(Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(2, 1, 1));
+  EXPECT_NEAR(leavesAt(box, far, x), 5.0, 1e-12);
+  EXPECT_NEAR(leavesAt(box, Eigen::Vector3d::Zero(), x), 2.0, 1e-12);
+  EXPECT_LT(leavesAt(box, far, Eigen::Vector3d::UnitY()), 0.0);
+  EXPECT_LT(leavesAt(Box(), far, x), 0.0);
+}
+
 TEST(ViewHits, ViewsThatWereNeverScoredHaveThemToo) {
   SyntheticRun run = sharedRun();
   auto search = std::make_shared<ViewSearch>(*run.record.search);

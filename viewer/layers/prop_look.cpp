@@ -56,13 +56,20 @@ Eigen::Vector3d placeOf(vtkTextActor* plate) {
 }  // namespace
 
 Rgb readable(Rgb color, const SceneTheme& theme) {
-  constexpr double kEnough = 3.0;
-  const double wanted = std::min(kEnough, contrast(color, palette::kPaper));
-  for (int step = 0; step <= 20; ++step) {
-    const double f = step / 20.0;
-    const Rgb mixed{color.r + f * (theme.ink.r - color.r), color.g + f * (theme.ink.g - color.g),
-                    color.b + f * (theme.ink.b - color.b)};
-    if (contrast(mixed, theme.background) >= wanted) return mixed;
+  constexpr double kEnough = 3.0, kFaint = 2.0;
+  const double on_paper = contrast(color, palette::kPaper), wanted = std::min(kEnough, on_paper);
+  const bool faint = on_paper < kFaint;
+  const auto fits = [&](Rgb mixed) {
+    const double here = contrast(mixed, theme.background);
+    return here >= wanted && (!faint || here <= 2.0 * on_paper);
+  };
+  // Toward the ink if it is lost in the background, toward the background if a faint colour shouts.
+  const Rgb& end = contrast(color, theme.background) < wanted ? theme.ink : theme.background;
+  for (int step = 0; step <= 40; ++step) {
+    const double f = step / 40.0;
+    const Rgb mixed{color.r + f * (end.r - color.r), color.g + f * (end.g - color.g),
+                    color.b + f * (end.b - color.b)};
+    if (fits(mixed)) return mixed;
   }
   return theme.ink;
 }

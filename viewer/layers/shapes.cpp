@@ -249,6 +249,9 @@ vtkSmartPointer<vtkActor> hatchedActor(const FaceMesh& faces, Rgb color, double 
   data->GetPointData()->SetTCoords(along);
   auto actor = flatActor(data, rgb(255, 255, 255), 1.0);
   actor->SetTexture(texture);
+  constexpr double kTowardEye = -60.0;  // about a centimetre in a scene of metres
+  actor->GetMapper()->SetResolveCoincidentTopologyToPolygonOffset();
+  actor->GetMapper()->SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, kTowardEye);
   return actor;
 }
 

@@ -55,8 +55,8 @@ vtkSmartPointer<vtkActor> faceActor(const FaceMesh& faces, Rgb color, double opa
 /// The same of merged faces.
 vtkSmartPointer<vtkActor> faceActor(const MergedFaces& faces, Rgb color, double opacity);
 
-/// Flat-shaded quads with diagonal stripes on all axis-aligned faces. \param period_m of a stripe and a gap,
-/// along an axis
+/// Flat-shaded quads with diagonal stripes on all axis-aligned faces, drawn before a surface that lies about
+/// a voxel before them. \param period_m of a stripe and a gap, along an axis
 vtkSmartPointer<vtkActor> hatchedActor(const FaceMesh& faces, Rgb color, double period_m);
 
 /// Smooth-shaded triangles; `normals` one a point or empty (flat), `colors` one a point, one a triangle, or
