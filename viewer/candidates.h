@@ -61,6 +61,10 @@ struct CandidateRow {
 
   bool pending() const { return verdict == ViewVerdict::Pending; }
   bool chosen() const { return verdict == ViewVerdict::Chosen; }
+  /// Hierarchical planner: its rays were cast, so `unknown` and `occupied` are known.
+  bool cast() const { return verdict != ViewVerdict::NotFree && verdict != ViewVerdict::TakenBefore; }
+  /// Hierarchical planner: it passed all tests, so its factors and utility are known.
+  bool survived() const { return cast() && verdict != ViewVerdict::LittleSurface; }
 };
 
 /// All candidates of a step: those with a place by rank, or of contour planners segment after segment, each

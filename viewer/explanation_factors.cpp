@@ -147,17 +147,10 @@ std::vector<ViewFactor> utilityFactors(const ExplainedView& view) {
   const auto factorText = [](const CandidateRow&, double value) { return rounded(value, 3); };
   // The cascade ends at the first test that fails: what comes after it was never computed.
   const auto survivor = [](double CandidateRow::*member) {
-    return [member](const CandidateRow& r) {
-      const bool dropped = r.verdict == ViewVerdict::NotFree || r.verdict == ViewVerdict::TakenBefore ||
-                           r.verdict == ViewVerdict::LittleSurface;
-      return dropped ? std::nullopt : std::optional(r.*member);
-    };
+    return [member](const CandidateRow& r) { return r.survived() ? std::optional(r.*member) : std::nullopt; };
   };
   const auto seen = [](double CandidateRow::*member) {
-    return [member](const CandidateRow& r) {
-      const bool never = r.verdict == ViewVerdict::NotFree || r.verdict == ViewVerdict::TakenBefore;
-      return never ? std::nullopt : std::optional(r.*member);
-    };
+    return [member](const CandidateRow& r) { return r.cast() ? std::optional(r.*member) : std::nullopt; };
   };
   Bar occupied{"known surface",
                "Counted on occupied voxels of the object's box: enough to register the scan (eq. 2)",
@@ -176,10 +169,9 @@ std::vector<ViewFactor> utilityFactors(const ExplainedView& view) {
                    survivor(&CandidateRow::surface), factorText}));
   factors.push_back(drawn(view, {"distance factor", "1 where the sensor is, less the farther the way (eq. 5)",
                                  survivor(&CandidateRow::distance_factor), factorText, 1.0}));
-  factors.push_back(
-      drawn(view, {"unknown", "Counted on unknown voxels of the object's box", seen(&CandidateRow::unknown),
-                   counted, 0.0, config.stop_gain,
-                   "the planner stops if no view sees " + withUnit(config.stop_gain, unit) + " (h_stop)"}));
+  factors.push_back(drawn(view, {"unknown", "Counted on unknown voxels of the object's box",
+                                 seen(&CandidateRow::unknown), counted, 0.0, config.stop_gain,
+                                 "stops below " + withUnit(config.stop_gain, unit) + " (h_stop)"}));
   factors.push_back(drawn(view, occupied));
   factors.push_back(fact(view, "position",
                          "The robot's cube is free there, and the sensor does not stand in something",

@@ -35,9 +35,9 @@ std::string rounded(double value, int digits) {
   return text.data();
 }
 
-std::string fixed(double value) {
+std::string fixed(double value, int decimals) {
   std::array<char, 64> text;
-  std::snprintf(text.data(), text.size(), "%.2f", value);
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
   return text.data();
 }
 

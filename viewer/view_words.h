@@ -15,8 +15,8 @@ std::string plural(std::uint64_t count, const std::string& noun);
 std::string whole(double value);
 /// As many digits as matter: 0.0417 with three of them.
 std::string rounded(double value, int digits);
-/// Two decimals.
-std::string fixed(double value);
+/// So many decimals.
+std::string fixed(double value, int decimals = 2);
 
 /// How a group of contour points is called, by its place in the order as the pictures number it: "no. 1
 /// (label 7, saliency 0.51)". \pre record.search has it

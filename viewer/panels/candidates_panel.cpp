@@ -16,18 +16,20 @@ namespace {
 float widthOf(CandidateColumn column) {
   switch (column) {
     case CandidateColumn::Rank:
-      return 2.7f;
+      return 2.6f;
     case CandidateColumn::Change:
-      return 2.3f;
+      return 2.5f;
     case CandidateColumn::View:
       return 3.2f;
     case CandidateColumn::Gain:
     case CandidateColumn::Utility:
       return 3.5f;
     case CandidateColumn::Segment:
-      return 2.3f;
+      return 2.1f;
     case CandidateColumn::Verdict:
       return 5.6f;
+    case CandidateColumn::Unknown:
+      return 4.2f;
     default:
       return 4.6f;
   }
@@ -38,12 +40,15 @@ struct Colored {
   std::optional<Rgb> color = {};
 };
 
+/// Arrow and places; thousands as "1k".
 Colored changeText(const RankChange& change, const Theme& theme) {
+  const std::string places =
+      change.places < 1000 ? std::to_string(change.places) : std::to_string(change.places / 1000) + "k";
   switch (change.kind) {
     case RankChange::Kind::Up:
-      return {"▲" + std::to_string(change.places), theme.second_curve};
+      return {"▲" + places, theme.second_curve};
     case RankChange::Kind::Down:
-      return {"▼" + std::to_string(change.places), theme.warning};
+      return {"▼" + places, theme.warning};
     case RankChange::Kind::New:
       return {"new", theme.second_curve};
     case RankChange::Kind::Gone:
@@ -62,7 +67,7 @@ Colored verdictText(const CandidateRow& row, const Theme& theme) {
   return {verdictWord(row)};
 }
 
-/// Utility is small: three digits. Everything else is counted.
+/// What was never computed is a dash.
 Colored cellText(const CandidateRow& row, CandidateColumn column, const SceneFrame& frame,
                  const Theme& theme) {
   switch (column) {
@@ -76,6 +81,8 @@ Colored cellText(const CandidateRow& row, CandidateColumn column, const SceneFra
       break;
   }
   if (row.pending()) return {column == CandidateColumn::Rank ? "…" : "", theme.faint};
+  const Colored never{"–", theme.faint};
+  const bool hierarchical = frame.record.utilities != nullptr;
   switch (column) {
     case CandidateColumn::Rank:
       return {row.rank ? std::to_string(*row.rank) : "–"};
@@ -86,15 +93,15 @@ Colored cellText(const CandidateRow& row, CandidateColumn column, const SceneFra
     case CandidateColumn::Gain:
       return {whole(row.score)};
     case CandidateColumn::Utility:
-      return {rounded(row.score, 3)};
+      return row.survived() ? Colored{fixed(row.score, 4)} : never;
     case CandidateColumn::Unknown:
-      return {whole(row.unknown)};
+      return row.cast() || !hierarchical ? Colored{whole(row.unknown)} : never;
     case CandidateColumn::Occupied:
-      return {whole(row.occupied)};
+      return row.cast() || !hierarchical ? Colored{whole(row.occupied)} : never;
     case CandidateColumn::Surface:
-      return {rounded(row.surface, 3)};
+      return row.survived() ? Colored{fixed(row.surface, 3)} : never;
     case CandidateColumn::DistanceFactor:
-      return {fixed(row.distance_factor)};
+      return row.survived() ? Colored{fixed(row.distance_factor, 3)} : never;
     default:
       return {fixed(row.distance_m)};
   }
@@ -159,10 +166,17 @@ class Table {
     ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
     for (int i = 0; i < static_cast<int>(columns_.size()); ++i) {
       if (!ImGui::TableSetColumnIndex(i)) continue;
-      ImGui::TableHeader(columns_[i].title.data());
-      context_.widgets.note("candidates/column " + std::string(columns_[i].name));
+      headerCell(columns_[i]);
       tip(std::string(columns_[i].about) + ". Click to sort.");
     }
+  }
+
+  /// The title takes the whole cell: Dear ImGui would keep room for an arrow in every one.
+  void headerCell(const CandidateColumnText& column) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::TableHeader(("##" + std::string(column.name)).c_str());
+    context_.widgets.note("candidates/column " + std::string(column.name));
+    ImGui::GetWindowDrawList()->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), column.title.data());
   }
 
   void sort() {
@@ -263,16 +277,15 @@ void filterLine(PanelContext& context) {
   table.filter(filter);
 }
 
-void countsLine(CandidateTable& table) {
+void countsLine(PanelContext& context) {
+  CandidateTable& table = context.candidates.table;
   const auto& rows = table.rows();
   const auto ranked = std::ranges::count_if(rows, [](const CandidateRow& r) { return r.rank.has_value(); });
   const auto pending = std::ranges::count_if(rows, &CandidateRow::pending);
   std::string text = grouped(ranked) + " of " + plural(rows.size() - pending, "view") + " ranked";
   if (pending > 0) text += ", " + plural(pending, "segment") + " pending";
   if (table.listed().size() != rows.size()) text += "; " + grouped(table.listed().size()) + " listed";
-  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  ImGui::TextWrapped("%s", text.c_str());
-  ImGui::PopStyleColor();
+  faintText(context.theme, text);
 }
 
 }  // namespace
@@ -281,11 +294,12 @@ void candidatesPanel(PanelContext& context) {
   CandidateTable& table = context.candidates.table;
   table.show(context.model.recorded(), context.model.shown());
   if (table.rows().empty()) {
-    ImGui::TextDisabled(context.model.shown().empty() ? "No step is open." : "No views were evaluated here.");
+    faintText(context.theme,
+              context.model.shown().empty() ? "No step is open." : "No views were evaluated here.");
     return;
   }
   filterLine(context);
-  countsLine(table);
+  countsLine(context);
   Table(context).draw();
 }
 

@@ -18,6 +18,7 @@ void bar(const PanelContext& context, ImVec2 low, ImVec2 high, double share, boo
   const Rgb color = is_view ? theme.accent : theme.chosen;
   const ImVec2 end{low.x + std::max(1.0f, static_cast<float>(share) * (high.x - low.x)), high.y};
   draw.AddRectFilled(low, high, packed(theme.ink, 0.08));
+  if (!(share > 0.0)) return;
   draw.AddRectFilled(low, end, packed(color, is_view ? 0.9 : 0.25));
   if (is_view) return;
   const float height = high.y - low.y, gap = height * 0.8f;
@@ -77,7 +78,7 @@ class Bars {
                                                     : "(both)  " + factor.limit;
     if (!note.empty()) {
       ImGui::SameLine();
-      ImGui::TextDisabled("%s", note.c_str());
+      faintText(context_.theme, note);
     }
     const ImVec2 from = ImGui::GetCursorScreenPos();
     line(factor.view, true);
@@ -95,16 +96,15 @@ class Bars {
     const float height = ImGui::GetFontSize() * 0.8f;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 2.0f});
-    if (reading) {
-      const ImVec2 low{at.x, at.y + 2.0f};
-      bar(context_, low, {at.x + width_, low.y + height}, reading->share.value_or(0.0), is_view);
-    }
+    const ImVec2 low{at.x, at.y + 2.0f};
+    bar(context_, low, {at.x + width_, low.y + height}, reading ? reading->share.value_or(0.0) : 0.0,
+        is_view);
     ImGui::Dummy({width_, ImGui::GetFontSize()});
     ImGui::SameLine(0.0f, ImGui::GetStyle().ItemSpacing.x);
     if (reading)
       ImGui::TextUnformatted(reading->text.c_str());
     else
-      ImGui::TextDisabled("–");
+      faintText(context_.theme, "not known");
     ImGui::PopStyleVar();
   }
 
@@ -122,7 +122,7 @@ class Bars {
       ImGui::TextUnformatted(factor.view ? factor.view->text.c_str() : "–");
       if (!explanation_.other) continue;
       ImGui::TableNextColumn();
-      ImGui::TextDisabled("%s", factor.other ? factor.other->text.c_str() : "–");
+      faintText(context_.theme, factor.other ? factor.other->text : "–");
     }
     ImGui::EndTable();
   }
@@ -164,7 +164,7 @@ void countedLine(PanelContext& context, const Explanation& e) {
   const std::uint64_t revision = state.table.revision();
   if (!state.counted || state.counted->revision != revision || state.counted->id != e.id)
     state.counted = {revision, e.id, countedVoxels(context.model.shown().frame(), *e.row)};
-  ImGui::TextDisabled("It sees %s unknown voxels that count.", grouped(state.counted->voxels).c_str());
+  faintText(context.theme, "It sees " + grouped(state.counted->voxels) + " unknown voxels that count.");
   context.widgets.note("explain/voxels");
 }
 
@@ -174,7 +174,8 @@ void explainPanel(PanelContext& context) {
   const StepData& shown = context.model.shown();
   const auto id = context.model.explainedView();
   if (shown.empty() || !id) {
-    ImGui::TextDisabled(shown.empty() ? "No step is open." : "No view was chosen; select one to see why.");
+    faintText(context.theme,
+              shown.empty() ? "No step is open." : "No view was chosen; select one to see why.");
     return;
   }
   context.candidates.table.show(context.model.recorded(), shown);

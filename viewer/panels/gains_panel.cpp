@@ -204,10 +204,9 @@ class Scatter {
     const std::string text = std::to_string(p.step->step);
     const ImVec2 at = placeOf(p), size = ImGui::CalcTextSize(text.c_str());
     const float r = radius(), dx = r + 3.0f;
-    const ImVec2 places[] = {{at.x + dx, at.y - size.y * 0.9f},
-                             {at.x - dx - size.x, at.y - size.y * 0.9f},
-                             {at.x + dx, at.y - size.y * 0.1f},
-                             {at.x - dx - size.x, at.y - size.y * 0.1f}};
+    const ImVec2 places[] = {{at.x + dx, at.y - size.y * 0.9f}, {at.x - dx - size.x, at.y - size.y * 0.9f},
+                             {at.x + dx, at.y - size.y * 0.1f}, {at.x - dx - size.x, at.y - size.y * 0.1f},
+                             {at.x - size.x / 2, at.y + r},     {at.x - size.x / 2, at.y - r - size.y}};
     const auto isFree = [&](ImVec2 place) {
       return place.x > area_.low.x && place.x + size.x < area_.high.x &&
              std::ranges::none_of(points_, [&](const GainPoint& other) {
@@ -260,7 +259,7 @@ void missing(PanelContext& context) {
 
 void gainsPanel(PanelContext& context) {
   if (context.model.steps().empty()) {
-    ImGui::TextDisabled("No run is open: its gains appear here.");
+    faintText(context.theme, "No run is open: its gains appear here.");
     return;
   }
   std::vector<GainPoint> points = pointsOf(context.model.steps());
@@ -268,7 +267,7 @@ void gainsPanel(PanelContext& context) {
       "Unknown voxels that a view was predicted to see, and by how many its region held fewer after the next "
       "scan.");
   if (points.empty()) {
-    ImGui::TextDisabled("No step has both yet.");
+    faintText(context.theme, "No step has both yet.");
   } else {
     Scatter scatter(context, std::move(points));
     scatter.draw();

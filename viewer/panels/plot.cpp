@@ -6,6 +6,12 @@
 
 namespace vantage {
 
+void faintText(const Theme& theme, const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, packed(theme.faint));
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
+}
+
 std::vector<double> ticks(double largest, int wanted) {
   if (!(largest > 0.0) || wanted < 1) return {0.0};
   const double rough = largest / wanted, unit = std::pow(10.0, std::floor(std::log10(rough)));

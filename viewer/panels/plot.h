@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "viewer/color.h"
+#include "viewer/panels/theme.h"
 
 namespace vantage {
 
@@ -16,6 +17,9 @@ inline ImU32 packed(Rgb color, double opacity = 1.0) {
   return ImGui::ColorConvertFloat4ToU32({static_cast<float>(color.r), static_cast<float>(color.g),
                                          static_cast<float>(color.b), static_cast<float>(opacity)});
 }
+
+/// Secondary text, in as many lines as it needs.
+void faintText(const Theme& theme, const std::string& text);
 
 /// A rectangle of the window in which values are drawn, x to the right and y up.
 struct PlotArea {
