@@ -173,6 +173,7 @@ bool sameCandidates(const SceneFrame& a, const SceneFrame& b) {
 
 void compareRanks(std::vector<CandidateRow>& current, const std::vector<CandidateRow>& recorded) {
   std::unordered_map<std::uint32_t, std::uint32_t> had;
+  had.reserve(recorded.size());
   for (const CandidateRow& row : recorded)
     if (row.rank) had.emplace(row.id, *row.rank);
   for (CandidateRow& row : current) {
@@ -208,7 +209,7 @@ std::string verdictWord(const CandidateRow& row) {
     case ViewVerdict::Waiting:
       return "waits";
     case ViewVerdict::Pending:
-      return "not scored yet";
+      return "pending";
   }
   return "";
 }

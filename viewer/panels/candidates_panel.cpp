@@ -62,7 +62,6 @@ Colored changeText(const RankChange& change, const Theme& theme) {
 
 Colored verdictText(const CandidateRow& row, const Theme& theme) {
   if (row.chosen()) return {"◆ chosen", theme.chosen};
-  if (row.pending()) return {plural(row.poses, "view") + ", not scored yet", theme.faint};
   if (row.verdict == ViewVerdict::Unreachable || !row.rank) return {verdictWord(row), theme.faint};
   return {verdictWord(row)};
 }
@@ -210,6 +209,7 @@ class Table {
     if (ImGui::Selectable("##row", selected, ImGuiSelectableFlags_SpanAllColumns)) select(row.id);
     ImGui::EndDisabled();
     noteRow(row);
+    if (row.pending()) tip(plural(row.poses, "view") + " of this segment, not scored yet");
     if (row.chosen()) markChosen(at);
     ImGui::SetCursorScreenPos(at);
     for (int i = 0; i < static_cast<int>(columns_.size()); ++i) {
