@@ -15,7 +15,8 @@ constexpr double kInfoShown_s = 8.0;
 constexpr std::size_t kMostNotices = 4;
 
 // Names of background work: the newest of a name replaces the one before.
-const std::string kOpen = "open", kLoad = "load step", kPrepare = "prepare", kFollow = "follow";
+const std::string kOpen = "open", kLoad = "load step", kPrepare = "prepare", kFollow = "follow",
+                  kAhead = "read ahead";
 
 }  // namespace
 
@@ -102,6 +103,7 @@ void InspectorModel::takeOver(std::shared_ptr<RunSession> session, std::filesyst
   opening_ = false;
   work_.cancel(kLoad);
   work_.cancel(kPrepare);
+  work_.cancel(kAhead);
   work_.cancel(kFollow);
   file_ = std::move(file);
   session_ = std::move(session);
@@ -175,6 +177,12 @@ void InspectorModel::show(StepData data, int index) {
       if (loaded_ == index) what_if_.setStep(recorded_, context);
     });
   });
+  if (index + 1 < static_cast<int>(steps_.size()))
+    work_.start(kAhead, [session = session_, next = steps_[index + 1].step](const RunControl& control) {
+      control.report("reading ahead", 0, 0);
+      session->prepare(next);
+      return BackgroundWork::Finish();
+    });
 }
 
 void InspectorModel::follow() {

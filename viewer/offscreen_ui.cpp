@@ -87,14 +87,15 @@ void OffscreenUi::frame(double elapsed_s) {
 
 void OffscreenUi::settle(double limit_s) {
   using Clock = std::chrono::steady_clock;
+  constexpr double kPoll_s = 0.004;
   const auto start = Clock::now();
   frame();
   frame();
   while (!state_->inspector.idle()) {
     if (std::chrono::duration<double>(Clock::now() - start).count() > limit_s)
       throw std::runtime_error("the window did not come to rest");
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    frame();
+    std::this_thread::sleep_for(std::chrono::duration<double>(kPoll_s));
+    if (state_->inspector.update(kPoll_s)) frame();
   }
   frame();
 }

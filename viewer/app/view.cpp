@@ -13,6 +13,7 @@
 #include "viewer/app/picture_size.h"
 #include "viewer/captions.h"
 #include "viewer/inspector.h"
+#include "viewer/inspector_model.h"
 #include "viewer/offscreen_ui.h"
 #include "viewer/window.h"
 
@@ -71,7 +72,8 @@ int drawWindow(const GlobalOptions& global, const ViewOptions& options,
 
 int openWindow(const ViewOptions& options, const std::vector<std::filesystem::path>& files) {
   const std::filesystem::path kept = preferencesPath();
-  Preferences preferences = loadPreferences(kept);
+  std::string problem;
+  Preferences preferences = loadPreferences(kept, &problem);
   WindowOptions window_options;
   window_options.width = preferences.window_width;
   window_options.height = preferences.window_height;
@@ -81,6 +83,7 @@ int openWindow(const ViewOptions& options, const std::vector<std::filesystem::pa
   ports.copy = [&window](const std::string& text) { window.copy(text); };
   ports.wake = [&window] { window.wake(); };
   Inspector inspector(window.context(), std::move(ports), std::move(preferences));
+  if (!problem.empty()) inspector.model().say(Notice::Level::Warning, problem);
   inspector.open(files);
   window.show(inspector);
   Preferences last = inspector.preferences();

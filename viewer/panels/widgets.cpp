@@ -24,7 +24,12 @@ void tip(const std::string& text) {
 
 void Widgets::note(const std::string& name, bool enabled) {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-  boxes_[name] = {low.x, low.y, high.x, high.y, ImGui::IsItemVisible(), enabled};
+  WidgetBox box{low.x, low.y, high.x, high.y, false, enabled};
+  const ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImVec2 clip_low = draw.GetClipRectMin(), clip_high = draw.GetClipRectMax();
+  box.visible =
+      box.x() > clip_low.x && box.x() < clip_high.x && box.y() > clip_low.y && box.y() < clip_high.y;
+  boxes_[name] = box;
 }
 
 bool Widgets::button(const std::string& name, const std::string& label, bool enabled,

@@ -10,7 +10,7 @@ namespace vantage {
 /// Where a widget is, pixels from the top left of the window.
 struct WidgetBox {
   double left = 0.0, top = 0.0, right = 0.0, bottom = 0.0;
-  bool visible = false;  ///< false: scrolled out of its panel
+  bool visible = false;  ///< its middle is; false: scrolled out of its panel
   bool enabled = true;
   double x() const { return (left + right) / 2.0; }
   double y() const { return (top + bottom) / 2.0; }
