@@ -12,6 +12,7 @@
 #include "viewer/app/console.h"
 #include "viewer/app/picture_size.h"
 #include "viewer/captions.h"
+#include "viewer/file_kind.h"
 #include "viewer/inspector.h"
 #include "viewer/inspector_model.h"
 #include "viewer/offscreen_ui.h"
@@ -44,15 +45,10 @@ InspectorPorts commonPorts() {
   return ports;
 }
 
-std::vector<std::filesystem::path> existing(const std::vector<std::string>& files) {
-  std::vector<std::filesystem::path> paths;
-  for (const std::string& file : files) {
-    std::error_code error;
-    if (!std::filesystem::exists(file, error))
-      throw InputError(file, "there is no such file; give a run, a map, a scene or a cloud");
-    paths.emplace_back(file);
-  }
-  return paths;
+/// What is no file that the program knows is refused before a window opens.
+std::vector<std::filesystem::path> knownFiles(const std::vector<std::string>& files) {
+  for (const std::string& file : files) requireKind(file);
+  return {files.begin(), files.end()};
 }
 
 /// The window drawn into a file, without a display.
@@ -94,7 +90,7 @@ int openWindow(const ViewOptions& options, const std::vector<std::filesystem::pa
 }
 
 int view(const GlobalOptions& global, const ViewOptions& options) {
-  const auto files = existing(options.files);
+  const auto files = knownFiles(options.files);
   if (!options.picture.empty()) return drawWindow(global, options, files);
   return openWindow(options, files);
 }
