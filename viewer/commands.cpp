@@ -12,9 +12,17 @@ char lower(char c) {
   return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
 }
 
-/// Cost of finding the query's letters in the text, in their order: letters that are skipped inside a word
-/// weigh more than whole words. Empty if they are not there.
+/// Cost of finding the query's letters in the text, in their order: least for the query itself at the start
+/// of a word; else letters that are skipped inside a word weigh more than whole words. Empty if they are not
+/// there.
 std::optional<int> costOf(const std::string& text, const std::string& query) {
+  const auto same = [](char a, char b) { return lower(a) == lower(b); };
+  for (auto from = text.begin(); !query.empty();) {
+    const auto found = std::search(from, text.end(), query.begin(), query.end(), same);
+    if (found == text.end()) break;
+    if (found == text.begin() || *(found - 1) == ' ') return -2;
+    from = found + 1;
+  }
   int cost = 0;
   std::size_t at = 0;
   bool joined = true;

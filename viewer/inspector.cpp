@@ -133,8 +133,15 @@ WindowActions Inspector::State::actions() {
 }
 
 PanelContext Inspector::State::panelContext() {
-  return {model,     preferences, scene, widgets, candidates, commands.list(), themeOf(preferences.theme),
-          ports.copy};
+  return {model,
+          preferences,
+          scene,
+          widgets,
+          candidates,
+          commands.list(),
+          themeOf(preferences.theme),
+          ports.copy,
+          [this](const Eye& eye) { view.setEye(eye); }};
 }
 
 Layout Inspector::State::layout() const {
@@ -267,12 +274,14 @@ void Inspector::State::viewWindow(PanelContext& context, const Layout& l, double
                                  kFixed | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
   ImGui::PopStyleVar();
   if (open) {
-    if (model.shown().empty() && !model.loading()) {
-      ImGui::SetCursorPos({24.0f, 24.0f});
-      ImGui::TextDisabled("Open a run with Ctrl+O, or drop a file here.  F1 lists all keys.");
-      ImGui::SetCursorPos({0.0f, 0.0f});
-    }
+    const ImVec2 at = ImGui::GetCursorScreenPos();
     view.draw(context, pixel_scale);
+    if (model.shown().empty()) {
+      const char* hint =
+          model.loading() ? "loading…" : "Open a run with Ctrl+O, or drop a file here. F1 lists all keys.";
+      ImGui::GetWindowDrawList()->AddText({at.x + 24.0f, at.y + 24.0f},
+                                          packed(themeOf(preferences.theme).faint), hint);
+    }
   }
   ImGui::End();
 }
@@ -353,6 +362,7 @@ void Inspector::State::followModel() {
     eye_wanted = true;
   }
   if (model.file() != file_before) {
+    eye_wanted |= !file_before.empty();
     file_before = model.file();
     place_before = model.place();
     preferences.addRecent(model.file());
@@ -415,10 +425,13 @@ void Inspector::draw(double pixel_scale) {
   io.ConfigFlags = s.preferences.keyboard_navigation ? ImGuiConfigFlags_NavEnableKeyboard : 0;
   PanelContext context = s.panelContext();
   s.keys();
-  if (std::exchange(s.eye_wanted, false)) s.view.resetEye(context);
   const Layout layout = s.layout();
   s.menus(context);
   s.viewWindow(context, layout, pixel_scale);
+  if (s.eye_wanted && !s.model.recorded().empty()) {
+    s.eye_wanted = false;
+    s.view.resetEye(context);
+  }
   s.leftPanel(context, layout);
   s.rightPanel(context, layout);
   s.timelineWindow(context, layout);

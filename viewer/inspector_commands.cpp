@@ -149,8 +149,9 @@ void InspectorCommands::addWhatIf() {
   add("what-if.reset", "What-if", "Reset all parameters", {keyOf('R'), true}, [this] {
     model_.whatIf().resetAll();
   }).enabled = [this] { return model_.whatIf().edits().anyChanged(); };
-  add("what-if.cancel", "What-if", "Cancel what runs in the background", {Key::Period, true},
-      [this] { model_.whatIf().cancel(); });
+  add("what-if.cancel", "What-if", "Cancel what runs in the background", {Key::Period, true}, [this] {
+    model_.whatIf().cancel();
+  }).enabled = [this] { return model_.whatIf().busy(); };
   add("selection.next", "What-if", "Select the next view of the table", {Key::Down},
       [this] { actions_.select_view(+1); });
   add("selection.previous", "What-if", "Select the view before it", {Key::Up},

@@ -156,6 +156,8 @@ void InspectorModel::previous() {
 void InspectorModel::load(int index) {
   const int step = steps_[index].step;
   work_.cancel(kPrepare);
+  work_.cancel(kAhead);
+  what_if_.suspend();  // the worker is wanted for the step
   work_.start(kLoad, [this, session = session_, step, index](const RunControl& control) {
     control.report("loading step " + std::to_string(step), 0, 0);
     StepData data = session->load(step);
@@ -217,6 +219,7 @@ void InspectorModel::follow() {
 
 bool InspectorModel::update(double elapsed_s) {
   bool changed = work_.poll();
+  const bool was_playing = player.playing();
   const std::uint64_t before = revision_;
   if (player.playing() && !loading()) {
     const TimelinePlace at = player.advanced(place_, static_cast<int>(steps_.size()),
@@ -226,6 +229,7 @@ bool InspectorModel::update(double elapsed_s) {
       changed = true;
     }
   }
+  changed |= was_playing != player.playing();
   since_follow_s_ += elapsed_s;
   if (growing() && since_follow_s_ >= kFollowEvery_s) {
     since_follow_s_ = 0.0;

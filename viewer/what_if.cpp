@@ -213,8 +213,17 @@ void WhatIf::scorePending() {
       });
 }
 
-void WhatIf::cancel() {
+void WhatIf::suspend() {
   for (const std::string& name : {kScore, kRerun, kCheck}) work_.cancel(name);
+}
+
+bool WhatIf::busy() const {
+  return state_ == WhatIfState::Rerunning || state_ == WhatIfState::Checking ||
+         state_ == WhatIfState::Scoring || pending_groups_ > 0;
+}
+
+void WhatIf::cancel() {
+  suspend();
   if (state_ == WhatIfState::Rerunning || state_ == WhatIfState::Checking || state_ == WhatIfState::Scoring)
     fail("cancelled: what is shown belongs to earlier parameters");
 }

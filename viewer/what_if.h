@@ -64,6 +64,10 @@ class WhatIf {
   double rerankSeconds() const { return rerank_s_; }
   /// Cancels what runs in the background; what is shown stays.
   void cancel();
+  /// The same without a word: another step is about to come.
+  void suspend();
+  /// There is something to cancel.
+  bool busy() const;
 
  private:
   void update();

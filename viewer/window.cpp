@@ -6,8 +6,11 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
+#include <deque>
+#include <optional>
 
 #include "viewer/ui_host.h"
 
@@ -57,10 +60,19 @@ struct Window::State {
   WindowOptions options;
   Inspector* inspector = nullptr;
   int frames_wanted = 0;
+  /// Keys that were pressed and not shown to Dear ImGui yet: it looks at keys once a frame, and a press may
+  /// be over by then.
+  struct Press {
+    int key, mods;
+  };
+  std::deque<Press> presses;
+  std::optional<int> held;           ///< the key that is held down for it in this frame
+  std::array<bool, 512> shown = {};  ///< keys that were down in the last frame
 
   /// Dear ImGui takes some frames to come to rest after an event.
   void wantFrames() { frames_wanted = 3; }
   void drawFrame(double elapsed_s);
+  void showPress();
 };
 
 namespace {
@@ -77,7 +89,11 @@ void watchEvents(GLFWwindow* window) {
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { wanted(w); });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int, int, int) { wanted(w); });
   glfwSetScrollCallback(window, [](GLFWwindow* w, double, double) { wanted(w); });
-  glfwSetKeyCallback(window, [](GLFWwindow* w, int, int, int, int) { wanted(w); });
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
+    if (action == GLFW_PRESS && key >= 0)
+      static_cast<Window::State*>(glfwGetWindowUserPointer(w))->presses.push_back({key, mods});
+    wanted(w);
+  });
   glfwSetCharCallback(window, [](GLFWwindow* w, unsigned) { wanted(w); });
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
     auto* state = static_cast<Window::State*>(glfwGetWindowUserPointer(w));
@@ -155,6 +171,29 @@ int Window::height() const {
   return height;
 }
 
+void Window::State::showPress() {
+  ImGuiIO& io = ImGui::GetIO();
+  const auto down = [this](int key) { return glfwGetKey(window, key) == GLFW_PRESS; };
+  if (held) io.KeysDown[*held] = down(*held);
+  held.reset();
+  io.KeyCtrl = down(GLFW_KEY_LEFT_CONTROL) || down(GLFW_KEY_RIGHT_CONTROL);
+  io.KeyShift = down(GLFW_KEY_LEFT_SHIFT) || down(GLFW_KEY_RIGHT_SHIFT);
+  if (!presses.empty()) {
+    const Press press = presses.front();
+    wantFrames();
+    if (shown[press.key]) {
+      io.KeysDown[press.key] = false;  // a second press needs a frame without the first
+    } else {
+      presses.pop_front();
+      io.KeyCtrl |= (press.mods & GLFW_MOD_CONTROL) != 0;
+      io.KeyShift |= (press.mods & GLFW_MOD_SHIFT) != 0;
+      io.KeysDown[press.key] = true;
+      held = press.key;
+    }
+  }
+  std::copy(std::begin(io.KeysDown), std::end(io.KeysDown), shown.begin());
+}
+
 void Window::State::drawFrame(double elapsed_s) {
   float scale_x = 1.0f, scale_y = 1.0f;
   glfwGetWindowContentScale(window, &scale_x, &scale_y);
@@ -169,6 +208,7 @@ void Window::State::drawFrame(double elapsed_s) {
                 kBaseFont_px * preferences.font_scale * std::max(1.0, scale_x / pixel_scale));
   host->makeCurrent();
   ImGui_ImplGlfw_NewFrame();
+  showPress();
   ImGui::GetIO().DeltaTime = static_cast<float>(elapsed_s);
   host->begin();
   inspector->draw(pixel_scale);

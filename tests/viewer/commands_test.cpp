@@ -55,8 +55,11 @@ TEST(Commands, AFewLettersFindACommandAndWordStartsComeFirst) {
   EXPECT_EQ(commands.matching("turn").front()->id, "b");
   EXPECT_EQ(commands.matching("LEFT").front()->id, "b");
   EXPECT_EQ(commands.matching("next step").front()->id, "c");
+  commands.add(named("d", "Play or pause"));
+  commands.add(named("e", "Look from the top"));
+  EXPECT_EQ(commands.matching("top").front()->id, "e") << "a whole word comes before scattered letters";
   EXPECT_TRUE(commands.matching("zzz").empty());
-  EXPECT_EQ(commands.matching("").size(), 3u);
+  EXPECT_EQ(commands.matching("").size(), 5u);
 }
 
 TEST(Keys, ShortcutsReadAsPeopleWriteThem) {

@@ -185,6 +185,15 @@ TEST_F(InspectorTest, BookmarksKeepACamera) {
   driver.ui.press({keyOf('1'), true});
   driver.ui.settle();
   EXPECT_EQ(driver.inspector.preferences().eye->position, kept.position);
+  driver.ui.press({keyOf('2')});
+  driver.ui.settle();
+  driver.ui.click("bookmarks/1/go");
+  driver.ui.settle();
+  EXPECT_EQ(driver.inspector.preferences().eye->position, kept.position);
+  driver.ui.enter("bookmarks/1/name", "from the robot");
+  EXPECT_EQ(driver.inspector.preferences().bookmarks.at(0).name, "from the robot");
+  driver.ui.click("bookmarks/1/forget");
+  EXPECT_TRUE(driver.inspector.preferences().bookmarks.empty());
 }
 
 TEST_F(InspectorTest, ThemesAndTextSizeChangeAtOnce) {

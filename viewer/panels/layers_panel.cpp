@@ -179,6 +179,24 @@ void clipRows(PanelContext& context) {
   }
 }
 
+void bookmarkRows(PanelContext& context) {
+  const Command* keep = context.commands.find("view.bookmark");
+  if (context.widgets.button("bookmarks/keep", "keep this camera", true, textOf(keep->keys))) keep->run();
+  auto& bookmarks = context.preferences.bookmarks;
+  std::optional<std::size_t> gone;
+  for (std::size_t i = 0; i < bookmarks.size(); ++i) {
+    const std::string name = "bookmarks/" + std::to_string(i + 1);
+    if (context.widgets.button(name + "/go", std::to_string(i + 1), true, "look from here"))
+      context.look_from(bookmarks[i].eye);
+    ImGui::SameLine();
+    const double room = ImGui::GetContentRegionAvail().x - ImGui::GetFontSize() * 4.6;
+    context.widgets.field(name + "/name", bookmarks[i].name, std::max(40.0, room));
+    ImGui::SameLine();
+    if (context.widgets.button(name + "/forget", "forget")) gone = i;
+  }
+  if (gone) bookmarks.erase(bookmarks.begin() + static_cast<std::ptrdiff_t>(*gone));
+}
+
 }  // namespace
 
 void layersPanel(PanelContext& context) {
@@ -190,6 +208,7 @@ void layersPanel(PanelContext& context) {
   }
   if (ImGui::CollapsingHeader("Slices", ImGuiTreeNodeFlags_DefaultOpen)) sliceRows(context);
   if (ImGui::CollapsingHeader("Clipping box", ImGuiTreeNodeFlags_DefaultOpen)) clipRows(context);
+  if (ImGui::CollapsingHeader("Camera bookmarks", ImGuiTreeNodeFlags_DefaultOpen)) bookmarkRows(context);
   const bool style = ImGui::CollapsingHeader("How much is drawn");
   context.widgets.note("layers/group style");
   if (style) styleRows(context);

@@ -25,6 +25,7 @@ struct PanelContext {
   const Commands& commands;
   const Theme& theme;
   std::function<void(const std::string&)> copy;  ///< to the clipboard
+  std::function<void(const Eye&)> look_from;     ///< puts the eye of the 3-D view somewhere
 };
 
 void timelinePanel(PanelContext& context);    ///< curves of the run, transport, stages

@@ -113,7 +113,12 @@ void ViewPanel::lookThroughView(PanelContext& context) {
   const auto view = context.model.explainedView();
   if (!view || !has_frame_) return;
   const SceneFrame frame = context.model.shown().frame();
-  if (const auto pose = poseOfView(frame, *view)) setEye(eyeOfView(viewCamera(frame), *pose, 0.8));
+  const auto pose = poseOfView(frame, *view);
+  if (!pose) return;
+  Eye eye = eyeOfView(viewCamera(frame), *pose, 0.8);
+  constexpr double kBeforeThePath_m = 0.04;  // the path ends where the view is, and would fill the picture
+  eye.position += kBeforeThePath_m * (eye.focus - eye.position).normalized();
+  setEye(eye);
 }
 
 void ViewPanel::orbitBy(double left_rad, double up_rad) {

@@ -192,11 +192,15 @@ void header(PanelContext& context) {
   decision(context);
   ImGui::PushStyleColor(ImGuiCol_Text, packed(what_if.state() == WhatIfState::Failed ? context.theme.warning
                                                                                      : context.theme.faint));
-  ImGui::TextWrapped("%s", stateText(what_if).c_str());
+  // Always as many lines: the sliders below stay under the mouse.
+  ImGui::TextUnformatted(stateText(what_if).c_str());
+  tip(stateText(what_if));
   ImGui::PopStyleColor();
   if (what_if.pendingGroups() > 0)
-    ImGui::TextDisabled("%zu of %zu groups of views are not scored yet", what_if.pendingGroups(),
+    ImGui::TextDisabled("%zu of %zu groups of views not scored yet", what_if.pendingGroups(),
                         what_if.groups());
+  else
+    ImGui::TextDisabled("all views are scored");
   Widgets& w = context.widgets;
   const auto command = [&](const char* id, const char* label) {
     const Command* c = context.commands.find(id);
@@ -211,8 +215,10 @@ void header(PanelContext& context) {
   command("what-if.reset", "reset all");
   ImGui::SameLine();
   command("what-if.cancel", "cancel");
-  if (w.button("what-if/copy", "copy as TOML", true, "the changed parameters as a configuration file"))
+  if (w.button("what-if/copy", "copy as TOML", true, "the changed parameters as a configuration file")) {
     context.copy(what_if.edits().toml());
+    context.model.say(Notice::Level::Info, "the changed parameters are on the clipboard, as TOML");
+  }
   ImGui::SameLine();
   command("file.write config", "write config…");
 }
@@ -231,7 +237,7 @@ void whatIfPanel(PanelContext& context) {
   }
   header(context);
   ImGui::Separator();
-  if (!what_if.ready()) return;
+  ImGui::BeginDisabled(!what_if.ready());
   for (const ParameterGroup& group : parametersOf(context.model.planner())) {
     const bool first = &group == &parametersOf(context.model.planner()).front();
     const bool open =
@@ -240,6 +246,7 @@ void whatIfPanel(PanelContext& context) {
     if (!open) continue;
     for (const Parameter& parameter : group.parameters) Row(context, parameter).draw();
   }
+  ImGui::EndDisabled();
 }
 
 }  // namespace vantage
