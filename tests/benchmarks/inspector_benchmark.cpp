@@ -5,9 +5,9 @@
 #include "core/exploration/explorer.h"
 #include "core/exploration/plan_view.h"
 #include "core/gpu/egl_context.h"
-#include "hardware/simulated_depth_camera.h"
 #include "io/config_file.h"
 #include "io/scene_file.h"
+#include "tests/benchmarks/tabletop_map.h"
 #include "viewer/merged_faces.h"
 #include "viewer/viewport.h"
 
@@ -28,17 +28,11 @@ struct Tabletop {
   StepRecord record;
 
   Tabletop() {
-    const SceneFile scene = loadScene("tabletop");
-    applyToml(settings, scene.text, scene.source_path, sceneGeometryKeys());
+    const benchmarks::TabletopMap& map = benchmarks::tabletopMap();
+    settings = map.settings;
+    volume = map.volume;
+    states = std::make_shared<StateGrid>(map.states);
     const ExplorationConfig& config = settings.exploration;
-    SimulatedDepthCamera camera(scene, {settings.camera, settings.sensor, config.seed});
-    volume = TsdfVolume(config.volume);
-    std::uint64_t index = 0;
-    for (const Pose& pose : initialScanPoses(config.scan)) {
-      clearSphere(volume, pose.translation(), config.scan.clear_radius_m);
-      fuseDepth(volume, camera.capture(pose, index++)->depth, camera.model(), pose, config.fusion);
-    }
-    states = std::make_shared<StateGrid>(makeStateGrid(volume));
     const PlanViewInput input{.volume = volume,
                               .states = *states,
                               .camera = settings.camera,

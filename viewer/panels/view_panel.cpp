@@ -25,17 +25,6 @@ ImTextureID textureId(unsigned handle) {
   return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(handle));
 }
 
-/// Pose of a candidate of the step, whichever planner made it.
-std::optional<Pose> poseOfView(const SceneFrame& frame, std::uint32_t id) {
-  if (frame.record.utilities) {
-    for (const ViewUtility& view : frame.record.utilities->views)
-      if (view.id == id) return view.T_world_camera;
-    return std::nullopt;
-  }
-  if (!frame.record.positions) return std::nullopt;
-  return candidatePose(frame, id);
-}
-
 }  // namespace
 
 /// The view through a frustum, drawn again when view or scene change.
@@ -113,7 +102,7 @@ void ViewPanel::lookThroughView(PanelContext& context) {
   const auto view = context.model.explainedView();
   if (!view || !has_frame_) return;
   const SceneFrame frame = context.model.shown().frame();
-  const auto pose = poseOfView(frame, *view);
+  const auto pose = poseOfCandidate(frame, *view);
   if (!pose) return;
   Eye eye = eyeOfView(viewCamera(frame), *pose, 0.8);
   constexpr double kBeforeThePath_m = 0.04;  // the path ends where the view is, and would fill the picture
@@ -297,7 +286,7 @@ void ViewPanel::overlays(PanelContext& context, double left, double top) {
     }
   }
   if (const auto view = context.model.selected_view) {
-    if (const auto pose = poseOfView(frame, *view))
+    if (const auto pose = poseOfCandidate(frame, *view))
       overlay.frustum(viewCamera(frame), *pose, packed(theme.accent));
   }
   for (const Eigen::Vector3d& end : measured_)
@@ -318,7 +307,7 @@ void ViewPanel::inset(PanelContext& context, double right, double top) {
   const auto view = context.model.explainedView();
   if (!context.preferences.show_inset || !view) return;
   const SceneFrame frame = context.model.shown().frame();
-  const auto pose = poseOfView(frame, *view);
+  const auto pose = poseOfCandidate(frame, *view);
   if (!pose) return;
   const PinholeCamera camera = viewCamera(frame);
   const double width = kInsetWidth_em * ImGui::GetFontSize();
