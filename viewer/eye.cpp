@@ -77,6 +77,17 @@ Eye eyeOfView(const PinholeCamera& camera, const Pose& T_world_camera, double fo
           -T_world_camera.linear().col(1), camera.verticalFov_rad()};
 }
 
+FrustumCorners frustumCorners(const PinholeCamera& camera, const Pose& T_world_camera, double depth_m) {
+  const double left = -0.5, top = -0.5, right = camera.width - 0.5, bottom = camera.height - 0.5;
+  FrustumCorners corners;
+  corners.apex = T_world_camera.translation();
+  corners.image = {T_world_camera * (depth_m * camera.ray(left, top)),
+                   T_world_camera * (depth_m * camera.ray(right, top)),
+                   T_world_camera * (depth_m * camera.ray(right, bottom)),
+                   T_world_camera * (depth_m * camera.ray(left, bottom))};
+  return corners;
+}
+
 EyeRay eyeRay(const Eye& eye, const Eigen::Vector2d& at_px, const PictureSize& picture) {
   return {eye.position, (eye.focus - eye.position + fromMiddle(eye, at_px, picture)).normalized()};
 }

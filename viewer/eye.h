@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <span>
 
@@ -17,6 +18,14 @@ Eye fitEye(const CameraView& view, std::span<const Eigen::Vector3d> points, doub
 /// What a camera at a pose sees: its eye with its roll and vertical aperture, focused at `focus_m`. A camera
 /// whose principal point is not in the middle is shown as if it were.
 Eye eyeOfView(const PinholeCamera& camera, const Pose& T_world_camera, double focus_m = 1.0);
+
+/// Apex and the corners of the image at `depth_m`, in the order left-top, right-top, right-bottom,
+/// left-bottom.
+struct FrustumCorners {
+  Eigen::Vector3d apex;
+  std::array<Eigen::Vector3d, 4> image;
+};
+FrustumCorners frustumCorners(const PinholeCamera& camera, const Pose& T_world_camera, double depth_m);
 
 /// A picture's size in pixels.
 struct PictureSize {

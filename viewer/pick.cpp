@@ -73,7 +73,7 @@ Box cut(Box box, const std::optional<Box>& clip) {
 std::optional<VoxelPick> pickSolid(const SceneFrame& frame, const ViewSettings& settings, const EyeRay& ray) {
   const LayerSet& shown = settings.layers;
   const bool occupied = shown.has(Layer::Occupied) || shown.has(Layer::Octree) || shown.has(Layer::Surface) ||
-                        shown.has(Layer::Segments);
+                        shown.has(Layer::Segments) || shown.has(Layer::SegmentLabels);
   const bool frontier = shown.has(Layer::Unknown) || shown.has(Layer::Octree);
   const GridGeometry& grid = frame.states.geometry();
   if (grid.count() == 0 || (!occupied && !frontier)) return std::nullopt;
@@ -119,17 +119,23 @@ struct Mark {
   PickedKind kind;
   std::uint32_t id;
   Eigen::Vector3d p_world;
+  std::optional<FrustumCorners> frustum = {};  ///< its lines are drawn
 };
 
 void addViews(const SceneFrame& frame, const ViewSettings& settings, std::vector<Mark>& marks) {
   const StepRecord& record = frame.record;
+  const PinholeCamera camera = viewCamera(frame);
   const auto add = [&](std::uint32_t id, const Pose& pose) {
     marks.push_back({PickedKind::Frustum, id, pose.translation()});
   };
+  const auto addDrawn = [&](std::uint32_t id, const Pose& pose, double length_m) {
+    marks.push_back({PickedKind::Frustum, id, pose.translation(), frustumCorners(camera, pose, length_m)});
+  };
   if (settings.layers.has(Layer::ChosenView) && record.hasView())
-    add(record.chosen()->id, record.chosen()->T_world_camera);
+    addDrawn(record.chosen()->id, record.chosen()->T_world_camera, chosenFrustumLength(frame));
   if (settings.layers.has(Layer::RankedViews)) {
-    for (const RankedPosition& view : drawnViews(frame, settings.style)) add(view.id, view.T_world_camera);
+    for (const RankedPosition& view : drawnViews(frame, settings.style))
+      addDrawn(view.id, view.T_world_camera, settings.style.frustum_length_m);
   }
   const bool all = settings.layers.has(Layer::Candidates) || settings.layers.has(Layer::UtilitySphere);
   if (all && record.utilities) {
@@ -149,23 +155,57 @@ void addContourPoints(const SceneFrame& frame, const ViewSettings& settings, std
   }
 }
 
-/// The mark nearest to a point of the picture, of equally near ones the first. What lies farther from the eye
-/// than `solid_m` is hidden.
-std::optional<Picked> nearestMark(const std::vector<Mark>& marks, const Eye& eye,
-                                  const Eigen::Vector2d& at_px, const PictureSize& picture, double solid_m,
-                                  double tolerance_m) {
+/// A point of the picture, and what may hide things there.
+struct Aim {
+  const Eye& eye;
+  Eigen::Vector2d at_px;
+  PictureSize picture;
+  double farthest_m;  ///< what lies farther from the eye is hidden
+};
+
+/// How far from the aim a point appears, as a share of the radius; at least 1: too far, or hidden.
+double shareOfPoint(const Aim& aim, const Eigen::Vector3d& p_world, double radius_px) {
+  const auto pixel = pixelOf(aim.eye, p_world, aim.picture);
+  if (!pixel || (p_world - aim.eye.position).norm() > aim.farthest_m) return 1.0;
+  return (*pixel - aim.at_px).norm() / radius_px;
+}
+
+/// The same of a straight piece, by its point that appears nearest.
+double shareOfLine(const Aim& aim, const Eigen::Vector3d& a_world, const Eigen::Vector3d& b_world,
+                   double radius_px) {
+  const auto a = pixelOf(aim.eye, a_world, aim.picture), b = pixelOf(aim.eye, b_world, aim.picture);
+  if (!a || !b) return 1.0;
+  const Eigen::Vector2d along = *b - *a;
+  const double t = std::clamp((aim.at_px - *a).dot(along) / std::max(1e-12, along.squaredNorm()), 0.0, 1.0);
+  const double distance_m = ((1.0 - t) * a_world + t * b_world - aim.eye.position).norm();
+  if (distance_m > aim.farthest_m) return 1.0;
+  return (*a + t * along - aim.at_px).norm() / radius_px;
+}
+
+/// Apexes count before lines, which cross each other.
+double shareOf(const Aim& aim, const Mark& mark) {
+  if (mark.kind != PickedKind::Frustum) return shareOfPoint(aim, mark.p_world, Picker::kContourRadius_px);
+  const double apex = shareOfPoint(aim, mark.p_world, Picker::kFrustumRadius_px);
+  if (apex < 1.0) return 0.5 * apex;
+  if (!mark.frustum) return 1.0;
+  double nearest = 1.0;
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Vector3d &corner = mark.frustum->image[i], &next = mark.frustum->image[(i + 1) % 4];
+    nearest = std::min({nearest, shareOfLine(aim, mark.p_world, corner, Picker::kEdgeRadius_px),
+                        shareOfLine(aim, corner, next, Picker::kEdgeRadius_px)});
+  }
+  return 0.5 + 0.5 * nearest;
+}
+
+/// The mark nearest to the aim, of equally near ones the first.
+std::optional<Picked> nearestMark(const std::vector<Mark>& marks, const Aim& aim) {
   std::optional<Picked> nearest;
-  double best = 1.0;  // share of its radius
+  double best = 1.0;
   for (const Mark& mark : marks) {
-    const auto pixel = pixelOf(eye, mark.p_world, picture);
-    if (!pixel) continue;
-    const double radius =
-        mark.kind == PickedKind::Frustum ? Picker::kFrustumRadius_px : Picker::kContourRadius_px;
-    const double share = (*pixel - at_px).norm() / radius;
-    const double distance_m = (mark.p_world - eye.position).norm();
-    if (share >= best || distance_m > solid_m + tolerance_m) continue;
+    const double share = shareOf(aim, mark);
+    if (share >= best) continue;
     best = share;
-    nearest = Picked{mark.kind, mark.p_world, distance_m, mark.id};
+    nearest = Picked{mark.kind, mark.p_world, (mark.p_world - aim.eye.position).norm(), mark.id};
   }
   return nearest;
 }
@@ -187,8 +227,8 @@ std::optional<Picked> Picker::at(const SceneFrame& frame, const ViewSettings& se
   addContourPoints(frame, settings, marks);
   // Contour points lie beside the voxels that stop the ray.
   const double tolerance_m = 3.0 * frame.states.geometry().voxel_size_m;
-  if (auto mark = nearestMark(marks, eye, at_px, picture, solid ? solid->distance_m : kFar, tolerance_m))
-    return mark;
+  const double farthest_m = solid ? solid->distance_m + tolerance_m : kFar;
+  if (auto mark = nearestMark(marks, {eye, at_px, picture, farthest_m})) return mark;
   if (!solid) return std::nullopt;
   Picked picked{PickedKind::Voxel, ray.origin + solid->distance_m * ray.direction, solid->distance_m};
   picked.voxel = solid->voxel;

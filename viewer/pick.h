@@ -44,11 +44,11 @@ std::optional<VoxelPick> pickVoxel(const SceneFrame& frame, const ViewSettings& 
 /// Finds what is under the mouse, on the CPU and from the data alone. Keeps a search structure per surface.
 class Picker {
  public:
-  static constexpr double kFrustumRadius_px = 10.0, kContourRadius_px = 7.0;
+  static constexpr double kFrustumRadius_px = 10.0, kContourRadius_px = 7.0, kEdgeRadius_px = 4.0;
 
-  /// The nearest thing that the settings show: frusta by their apexes and contour points by nearness in the
-  /// picture unless something solid stands before them, else what the ray through the pixel meets. Nothing
-  /// over the background.
+  /// The nearest thing that the settings show: frusta (by their apexes, else by the lines that are drawn) and
+  /// contour points by nearness in the picture unless something solid stands before them, else what the ray
+  /// through the pixel meets. Nothing over the background.
   std::optional<Picked> at(const SceneFrame& frame, const ViewSettings& settings, const Eye& eye,
                            const Eigen::Vector2d& at_px, const PictureSize& picture);
 

@@ -125,4 +125,22 @@ std::vector<RankedPosition> rankedViews(const UtilitySearch& search) {
   return ranked;
 }
 
+double lookDistance(const SceneFrame& frame) {
+  const auto& contours = frame.record.contours;
+  const ChosenView& chosen = *frame.record.chosen();
+  if (frame.record.utilities && frame.header.octree)
+    return std::max(0.05,
+                    (frame.header.octree->object_box.center() - chosen.T_world_camera.translation()).norm());
+  const auto& search = frame.record.search;
+  if (!contours || !search || search->chosen->contour_point >= contours->points.size()) return 0.8;
+  return std::max(
+      0.05, (contours->points[search->chosen->contour_point].position_m - chosen.T_world_camera.translation())
+                .norm());
+}
+
+double chosenFrustumLength(const SceneFrame& frame) {
+  constexpr double kLongest_m = 0.30;
+  return std::min(lookDistance(frame), kLongest_m);
+}
+
 }  // namespace vantage

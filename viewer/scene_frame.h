@@ -82,6 +82,13 @@ std::vector<RankedPosition> rankedViews(const UtilitySearch& search);
 /// reached, and style.unreachable_views better ones that cannot.
 std::vector<RankedPosition> drawnViews(const SceneFrame& frame, const LayerStyle& style);
 
+/// Distance from the chosen view to what it looks at: its contour point, else the middle of the object's box,
+/// metres. \pre the record has a view
+double lookDistance(const SceneFrame& frame);
+
+/// How long the frustum of the chosen view is drawn, metres. \pre the record has a view
+double chosenFrustumLength(const SceneFrame& frame);
+
 /// Pose of a candidate view; identity if its position is not in the record.
 Pose candidatePose(const SceneFrame& frame, std::uint32_t id);
 

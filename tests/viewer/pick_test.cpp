@@ -166,6 +166,30 @@ TEST(Picker, FindsFrustaByTheirApexes) {
   }
 }
 
+TEST(Picker, FindsFrustaAlongTheirLines) {
+  const SyntheticRun& run = sharedRun();
+  const ChosenView& chosen = *run.record.chosen();
+  const FrustumCorners corners =
+      frustumCorners(viewCamera(run.frame()), chosen.T_world_camera, chosenFrustumLength(run.frame()));
+  Eye eye;
+  eye.position = corners.apex + Eigen::Vector3d(0.4, -1.5, 1.0);
+  eye.focus = corners.apex;
+  const ViewSettings settings = showing({Layer::ChosenView});
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Vector3d beside = 0.5 * (corners.apex + corners.image[i]),
+                          far_side = 0.3 * corners.image[i] + 0.7 * corners.image[(i + 1) % 4];
+    for (const Eigen::Vector3d& on_line : {beside, far_side}) {
+      const auto picked = under(run, settings, eye, on_line, {1.5, -1.0});
+      ASSERT_TRUE(picked) << i;
+      EXPECT_EQ(picked->id, chosen.id);
+      EXPECT_EQ(picked->p_world, corners.apex);
+    }
+  }
+  const Eigen::Vector3d inside =
+      0.25 * (corners.image[0] + corners.image[1] + corners.image[2] + corners.image[3]);
+  EXPECT_FALSE(under(run, settings, eye, inside)) << "between its lines there is nothing";
+}
+
 TEST(Picker, WhatStandsBeforeAFrustumHidesIt) {
   SmallScene scene;
   scene.record.positions = std::make_shared<std::vector<ViewPosition>>(1);

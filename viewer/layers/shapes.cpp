@@ -325,17 +325,6 @@ vtkSmartPointer<vtkProp> plateProp(const Eigen::Vector3d& at, const std::string&
   return label;
 }
 
-FrustumCorners frustumCorners(const PinholeCamera& camera, const Pose& T_world_camera, double depth_m) {
-  const double left = -0.5, top = -0.5, right = camera.width - 0.5, bottom = camera.height - 0.5;
-  FrustumCorners corners;
-  corners.apex = T_world_camera.translation();
-  corners.image = {T_world_camera * (depth_m * camera.ray(left, top)),
-                   T_world_camera * (depth_m * camera.ray(right, top)),
-                   T_world_camera * (depth_m * camera.ray(right, bottom)),
-                   T_world_camera * (depth_m * camera.ray(left, bottom))};
-  return corners;
-}
-
 void addFrustum(LineSet& lines, const PinholeCamera& camera, const Pose& T_world_camera, double depth_m) {
   const FrustumCorners corners = frustumCorners(camera, T_world_camera, depth_m);
   for (int i = 0; i < 4; ++i) {

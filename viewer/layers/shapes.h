@@ -12,6 +12,7 @@
 #include "core/geometry/camera_model.h"
 #include "core/geometry/pose.h"
 #include "viewer/color.h"
+#include "viewer/eye.h"
 #include "viewer/merged_faces.h"
 
 namespace vantage {
@@ -83,14 +84,6 @@ vtkSmartPointer<vtkProp> labelProp(const Eigen::Vector3d& at, const std::string&
 /// Text on a white plate over everything else. Later ones cover earlier ones.
 vtkSmartPointer<vtkProp> plateProp(const Eigen::Vector3d& at, const std::string& utf8, double size_px,
                                    Rgb color);
-
-/// Apex and the corners of the image at `depth_m`, in the order left-top, right-top, right-bottom,
-/// left-bottom.
-struct FrustumCorners {
-  Eigen::Vector3d apex;
-  std::array<Eigen::Vector3d, 4> image;
-};
-FrustumCorners frustumCorners(const PinholeCamera& camera, const Pose& T_world_camera, double depth_m);
 
 /// The eight edges of a frustum.
 void addFrustum(LineSet& lines, const PinholeCamera& camera, const Pose& T_world_camera, double depth_m);

@@ -45,20 +45,6 @@ void addDashedFrustum(LineSet& lines, const PinholeCamera& camera, const Pose& p
   }
 }
 
-/// Distance from the eye to the contour point that the view looks at; to the middle of the object's box.
-double lookDistance(const SceneFrame& frame) {
-  const auto& contours = frame.record.contours;
-  const ChosenView& chosen = *frame.record.chosen();
-  if (frame.record.utilities && frame.header.octree)
-    return std::max(0.05,
-                    (frame.header.octree->object_box.center() - chosen.T_world_camera.translation()).norm());
-  const auto& search = frame.record.search;
-  if (!contours || !search || search->chosen->contour_point >= contours->points.size()) return 0.8;
-  return std::max(
-      0.05, (contours->points[search->chosen->contour_point].position_m - chosen.T_world_camera.translation())
-                .norm());
-}
-
 }  // namespace
 
 LayerContent candidatesLayer(const SceneFrame& frame, const LayerStyle& style) {
@@ -124,10 +110,10 @@ LayerContent chosenViewLayer(const SceneFrame& frame, const LayerStyle& style) {
   LayerContent content;
   if (!frame.record.hasView()) return content;
   const ChosenView& chosen = *frame.record.chosen();
-  const double distance = lookDistance(frame);
+  const double distance = lookDistance(frame), length = chosenFrustumLength(frame);
   const PinholeCamera camera = viewCamera(frame);
   LineSet frustum;
-  addFrustum(frustum, camera, chosen.T_world_camera, std::min(distance, 0.30));
+  addFrustum(frustum, camera, chosen.T_world_camera, length);
   content.props.push_back(lineActor(frustum, palette::kChosen, 3.5 * style.line_scale));
   LineSet axis;
   axis.addDashed(chosen.T_world_camera.translation(),
@@ -135,7 +121,7 @@ LayerContent chosenViewLayer(const SceneFrame& frame, const LayerStyle& style) {
   content.props.push_back(lineActor(axis, palette::kChosen, 2.0 * style.line_scale));
   content.props.push_back(dotActor({chosen.T_world_camera * Eigen::Vector3d(0.0, 0.0, distance)}, {},
                                    palette::kChosen, 11.0 * style.line_scale));
-  const FrustumCorners corners = frustumCorners(camera, chosen.T_world_camera, std::min(distance, 0.30));
+  const FrustumCorners corners = frustumCorners(camera, chosen.T_world_camera, length);
   content.must_see.assign(corners.image.begin(), corners.image.end());
   content.must_see.push_back(corners.apex);
   content.legend.push_back({Mark::Line, palette::kChosen, 1.0, "chosen view"});
