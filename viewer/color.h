@@ -48,6 +48,11 @@ inline constexpr Rgb kOccluder = rgb(120, 132, 150);
 inline constexpr Rgb kRayMissed = rgb(170, 174, 180);
 inline constexpr Rgb kRayRefined = rgb(160, 70, 150);
 inline constexpr Rgb kRayOccupied = rgb(0, 70, 130);
+// Things that need a colour each, one after the other in use; none is that of surface without a segment.
+inline constexpr std::array<Rgb, 12> kDistinct = {rgb(0, 90, 150),    rgb(240, 190, 60),  rgb(150, 40, 90),
+                                                  rgb(120, 200, 220), rgb(30, 110, 80),   rgb(235, 150, 190),
+                                                  rgb(90, 70, 160),   rgb(200, 220, 130), rgb(170, 80, 20),
+                                                  rgb(170, 180, 240), rgb(70, 80, 30),    rgb(250, 190, 150)};
 // Views that fell out of the cascade.
 inline constexpr Rgb kRejectedPosition = rgb(172, 174, 178);
 inline constexpr Rgb kRejectedRegistration = rgb(228, 230, 232);

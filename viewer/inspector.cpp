@@ -39,7 +39,8 @@ struct Inspector::State {
   FileDialog dialog;
   std::string after_dialog;  ///< what the chosen file is for: "open", "write config"
   bool close = false;
-  TimelinePlace place_before;
+  int stage_before = 0;
+  LayerSet stage_layers_before;
   bool eye_wanted = false;  ///< a recipe places the eye at the next frame
   std::filesystem::path file_before;
   InspectorCommands commands;  ///< last: refers to the others
@@ -167,14 +168,17 @@ void Inspector::State::followModel() {
   if (model.file() != file_before) {
     eye_wanted |= !file_before.empty();
     file_before = model.file();
-    place_before = model.place();
+    stage_before = model.place().stage;
     preferences.addRecent(model.file());
   }
-  if (preferences.view.layers == LayerSet() && !model.recorded().empty())
-    preferences.view.layers = overviewLayers(model.planner());
-  if (model.place().stage != place_before.stage)
-    preferences.view.layers = model.stages()[model.place().stage].layers;
-  place_before = model.place();
+  if (model.recorded().empty()) return;
+  LayerSet& shown = preferences.view.layers;
+  const LayerSet& of_stage = model.stages()[model.place().stage].layers;
+  const bool other_stage = model.place().stage != stage_before;
+  // The same stage of another planner, or of the closing scan, has other layers.
+  if (shown == LayerSet() || other_stage || shown == stage_layers_before) shown = of_stage;
+  stage_before = model.place().stage;
+  stage_layers_before = of_stage;
 }
 
 void Inspector::State::screenshot() {

@@ -138,7 +138,7 @@ void InspectorCommands::addLayers() {
     command.checked = [this, layer] { return preferences_.view.layers.has(layer); };
   }
   add("layers.overview", "Layers", "A bit of every stage", {keyOf('0')},
-      [this] { preferences_.view.layers = overviewLayers(model_.planner()); });
+      [this] { goToStage(-model_.place().stage); });
 }
 
 void InspectorCommands::addWhatIf() {

@@ -1,5 +1,7 @@
 #include "viewer/stage_views.h"
 
+#include <array>
+
 namespace vantage {
 namespace {
 
@@ -10,8 +12,16 @@ LayerSet with(std::initializer_list<Layer> layers) {
   return set;
 }
 
+StageView overviewStage(LayerSet layers) {
+  return {"overview", "Overview", "a bit of every stage, and the view that was chosen", std::move(layers)};
+}
+
 std::vector<StageView> contourStages(bool segments) {
   std::vector<StageView> stages = {
+      overviewStage(segments ? with({Layer::Segments, Layer::SegmentRanks, Layer::Unknown, Layer::RankedViews,
+                                     Layer::ChosenView, Layer::Path})
+                             : with({Layer::Surface, Layer::Unknown, Layer::RankedViews, Layer::ChosenView,
+                                     Layer::Path})),
       {"scan", "Scan", "the last depth image and where it was taken",
        with({Layer::Truth, Layer::Sensor, Layer::DepthImage})},
       {"fused", "Fused", "the map after fusion: occupied voxels and the frontier of unknown space",
@@ -20,8 +30,9 @@ std::vector<StageView> contourStages(bool segments) {
        with({Layer::Surface, Layer::ContourVoxels, Layer::ContourPoints})},
       {"surface", "Surface", "the fused surface, the planner's point cloud", with({Layer::Surface})}};
   if (segments) {
-    stages.push_back({"segments", "Segments", "LCCP segments, numbered in the order in which they are tried",
-                      with({Layer::Segments, Layer::SegmentRanks})});
+    stages.push_back({"segments", "Segments",
+                      "LCCP segments, a colour for each, numbered in the order in which they are tried",
+                      with({Layer::SegmentLabels, Layer::SegmentRanks})});
     stages.push_back({"saliency", "Saliency", "segments coloured by saliency, and the frontier near them",
                       with({Layer::Segments, Layer::SegmentRanks, Layer::Unknown})});
   }
@@ -35,7 +46,9 @@ std::vector<StageView> contourStages(bool segments) {
 }
 
 std::vector<StageView> octreeStages() {
-  return {{"scan", "Scan", "the last depth image and where it was taken",
+  return {overviewStage(with({Layer::ObjectBox, Layer::Occupied, Layer::Unknown, Layer::RankedViews,
+                              Layer::ChosenView, Layer::Path})),
+          {"scan", "Scan", "the last depth image and where it was taken",
            with({Layer::Truth, Layer::Sensor, Layer::DepthImage})},
           {"fused", "Fused", "the map after fusion: occupied voxels and the frontier of unknown space",
            with({Layer::Occupied, Layer::Unknown})},
@@ -51,21 +64,28 @@ std::vector<StageView> octreeStages() {
            with({Layer::ObjectBox, Layer::Occupied, Layer::RankedViews, Layer::ChosenView, Layer::Path})}};
 }
 
-}  // namespace
+using Stages = std::vector<StageView>;
 
-const std::vector<StageView>& stageViews(PlannerKind planner) {
-  static const std::vector<StageView> contour = contourStages(true), standard = contourStages(false),
-                                      octree = octreeStages();
-  if (usesOctree(planner)) return octree;
-  return planner == PlannerKind::Contour ? contour : standard;
+Stages withOverview(Stages stages, const char* about, const LayerSet& layers) {
+  stages.front() = {"overview", "Overview", about, layers};
+  return stages;
 }
 
-LayerSet overviewLayers(PlannerKind planner) {
-  if (usesOctree(planner))
-    return with({Layer::ObjectBox, Layer::Occupied, Layer::Unknown, Layer::RankedViews, Layer::ChosenView,
-                 Layer::Path});
-  return with({Layer::Segments, Layer::SegmentRanks, Layer::Unknown, Layer::RankedViews, Layer::ChosenView,
-               Layer::Path});
+/// For each content.
+std::array<Stages, 3> stagesOf(Stages planned) {
+  return {
+      planned, withOverview(planned, "the map after the last scan", with({Layer::Occupied, Layer::Unknown})),
+      withOverview(planned, "everything that the file holds",
+                   with({Layer::Truth, Layer::Surface, Layer::Occupied, Layer::Unknown, Layer::Candidates}))};
+}
+
+}  // namespace
+
+const Stages& stageViews(PlannerKind planner, StepContent content) {
+  static const std::array<std::array<Stages, 3>, 3> all = {
+      stagesOf(contourStages(true)), stagesOf(contourStages(false)), stagesOf(octreeStages())};
+  const std::size_t kind = usesOctree(planner) ? 2 : planner == PlannerKind::Contour ? 0 : 1;
+  return all[kind][static_cast<std::size_t>(content)];
 }
 
 }  // namespace vantage

@@ -16,10 +16,15 @@ struct StageView {
   LayerSet layers;    ///< what is shown of it
 };
 
-/// Stages of a step of a planner, in the order in which they are done.
-const std::vector<StageView>& stageViews(PlannerKind planner);
+/// What there is to look at.
+enum class StepContent {
+  Planned,  ///< a step of a run: a view was planned
+  Closing,  ///< the map after the last scan of a run
+  File,     ///< a map, scene, cloud or mesh by itself, shown like a step
+};
 
-/// What a step is shown with before anything is chosen: a bit of every stage.
-LayerSet overviewLayers(PlannerKind planner);
+/// Stages of a step of a planner, in the order in which they are done; before them "overview", with which a
+/// step is shown until something is chosen. Which stages there are depends on the planner alone.
+const std::vector<StageView>& stageViews(PlannerKind planner, StepContent content);
 
 }  // namespace vantage

@@ -9,11 +9,11 @@ namespace vantage {
 namespace {
 
 constexpr std::array<std::string_view, kLayerCount> kNames = {
-    "workspace",      "object-box",    "axes",           "truth",          "occupied",
-    "unknown",        "free",          "slices",         "octree",         "surface",
-    "segments",       "segment-ranks", "contour-voxels", "contour-points", "candidates",
-    "utility-sphere", "hit-voxels",    "occluders",      "coarse-rays",    "refined-rays",
-    "ranked-views",   "chosen-view",   "path",           "sensor",         "depth-image"};
+    "workspace",     "object-box",     "axes",           "truth",        "occupied",       "unknown",
+    "free",          "slices",         "octree",         "surface",      "segment-labels", "segments",
+    "segment-ranks", "contour-voxels", "contour-points", "candidates",   "utility-sphere", "hit-voxels",
+    "occluders",     "coarse-rays",    "refined-rays",   "ranked-views", "chosen-view",    "path",
+    "sensor",        "depth-image"};
 
 constexpr std::array<std::string_view, 4> kFactors = {"utility", "unknown", "occupied", "distance"};
 

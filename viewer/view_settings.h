@@ -15,18 +15,19 @@ namespace vantage {
 
 /// Everything that can be switched on in a view, in drawing order.
 enum class Layer : std::uint8_t {
-  Workspace,     ///< box of the workspace
-  ObjectBox,     ///< what the hierarchical planner reconstructs (OBB)
-  Axes,          ///< axes of the world at a lower corner of the workspace
-  Truth,         ///< true scene
-  Occupied,      ///< occupied voxels
-  Unknown,       ///< frontier of unknown space: its faces toward free voxels
-  Free,          ///< boundary of free space
-  Slices,        ///< voxel states on planes
-  Octree,        ///< occupied nodes and the frontier of unknown ones at one depth of the octree
-  Surface,       ///< fused surface
-  Segments,      ///< the same, coloured by saliency of its segments
-  SegmentRanks,  ///< the order in which segments are tried, as numbers beside them
+  Workspace,      ///< box of the workspace
+  ObjectBox,      ///< what the hierarchical planner reconstructs (OBB)
+  Axes,           ///< axes of the world at a lower corner of the workspace
+  Truth,          ///< true scene
+  Occupied,       ///< occupied voxels
+  Unknown,        ///< frontier of unknown space: its faces toward free voxels
+  Free,           ///< boundary of free space
+  Slices,         ///< voxel states on planes
+  Octree,         ///< occupied nodes and the frontier of unknown ones at one depth of the octree
+  Surface,        ///< fused surface
+  SegmentLabels,  ///< the same, a colour for each segment
+  Segments,       ///< the same, coloured by saliency of its segments
+  SegmentRanks,   ///< the order in which segments are tried, as numbers beside them
   ContourVoxels,
   ContourPoints,  ///< with their normals
   Candidates,     ///< positions of all candidate views
@@ -41,7 +42,7 @@ enum class Layer : std::uint8_t {
   Sensor,      ///< the sensor where the last scan was taken
   DepthImage,  ///< last depth image, beside the scene
 };
-inline constexpr int kLayerCount = 25;
+inline constexpr int kLayerCount = 26;
 
 /// Name of a layer in files and on the command line, e.g. "contour-points".
 std::string_view layerName(Layer layer);

@@ -30,6 +30,7 @@ LayerContent freeLayer(const SceneFrame& frame, const LayerStyle& style);
 LayerContent slicesLayer(const SceneFrame& frame, const LayerStyle& style);
 LayerContent octreeLayer(const SceneFrame& frame, const LayerStyle& style);
 LayerContent surfaceLayer(const SceneFrame& frame, const LayerStyle& style);
+LayerContent segmentLabelsLayer(const SceneFrame& frame, const LayerStyle& style);
 LayerContent segmentsLayer(const SceneFrame& frame, const LayerStyle& style);
 LayerContent segmentRanksLayer(const SceneFrame& frame, const LayerStyle& style);
 LayerContent contourVoxelsLayer(const SceneFrame& frame, const LayerStyle& style);

@@ -67,6 +67,8 @@ constexpr Reads readsOf(Layer layer) {
       return {kMap, kOctreeLevel | kUnknownOpacity | kLines};
     case Layer::Surface:
       return {kSurface, kSurfaceOpacity};
+    case Layer::SegmentLabels:
+      return {kSurface | kLabels | kSaliency | kSearch, kSurfaceOpacity};
     case Layer::Segments:
       return {kSurface | kLabels | kSaliency, kSurfaceOpacity | kSaliencyMax | kColors};
     case Layer::SegmentRanks:

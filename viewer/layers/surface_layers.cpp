@@ -1,5 +1,5 @@
-// Surfaces: the true scene, the fused surface, its segments by saliency and the order in which they are
-// tried.
+// Surfaces: the true scene, the fused surface, its segments by label and by saliency, and the order in which
+// they are tried.
 #include <vtkProperty.h>
 
 #include <algorithm>
@@ -18,21 +18,55 @@ bool hasMesh(const StepRecord& record) {
   return record.surface && !record.surface->triangles.empty();
 }
 
-/// Colour of each point by the saliency of its segment.
-std::vector<std::array<std::uint8_t, 3>> saliencyColors(const SurfaceCloud& surface, const Labels& labels,
-                                                        const Saliency& saliency, const LayerStyle& style) {
-  std::vector<std::array<std::uint8_t, 3>> of_label(saliency.segments.size() + 1,
-                                                    palette::kNoSegment.bytes());
+/// A colour for each label, 0 (no segment) first.
+using LabelColors = std::vector<std::array<std::uint8_t, 3>>;
+
+LabelColors saliencyColors(const Saliency& saliency, const LayerStyle& style) {
+  LabelColors of_label(saliency.segments.size() + 1, palette::kNoSegment.bytes());
   for (const Segment& segment : saliency.segments) {
     if (segment.label < of_label.size()) {
       of_label[segment.label] = colorAt(mapOf(style), segment.saliency / style.saliency_max).bytes();
     }
   }
+  return of_label;
+}
+
+/// Segments that are tried one after the other differ in lightness as well as in hue.
+LabelColors distinctColors(const StepRecord& record) {
+  const std::vector<Segment>& segments = record.saliency->segments;
+  std::vector<std::uint32_t> order;  // labels; first those that are tried
+  if (record.search)
+    for (const SegmentSearch& tried : record.search->segments)
+      if (tried.segment >= 0 && tried.segment < static_cast<int>(segments.size()))
+        order.push_back(segments[tried.segment].label);
+  for (const Segment& segment : segments)
+    if (std::ranges::find(order, segment.label) == order.end()) order.push_back(segment.label);
+  LabelColors of_label(segments.size() + 1, palette::kNoSegment.bytes());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    if (order[i] < of_label.size())
+      of_label[order[i]] = palette::kDistinct[i % palette::kDistinct.size()].bytes();
+  return of_label;
+}
+
+std::vector<std::array<std::uint8_t, 3>> pointColors(const SurfaceCloud& surface, const Labels& labels,
+                                                     const LabelColors& of_label) {
   std::vector<std::array<std::uint8_t, 3>> colors(surface.points.size(), palette::kNoSegment.bytes());
   for (std::size_t i = 0; i < std::min(colors.size(), labels.of_point.size()); ++i) {
     if (labels.of_point[i] < of_label.size()) colors[i] = of_label[labels.of_point[i]];
   }
   return colors;
+}
+
+bool hasSegments(const StepRecord& record) {
+  return hasMesh(record) && record.labels && record.saliency;
+}
+
+vtkSmartPointer<vtkActor> segmentActor(const StepRecord& record, const LabelColors& of_label,
+                                       const LayerStyle& style) {
+  const SurfaceCloud& surface = *record.surface;
+  return triangleActor(surface.points, surface.normals, surface.triangles,
+                       pointColors(surface, *record.labels, of_label), palette::kSurface,
+                       style.surface_opacity);
 }
 
 /// Where the number of a segment stands: on compact ones at the centre, on wide ones (table, wall) at the
@@ -101,14 +135,22 @@ LayerContent surfaceLayer(const SceneFrame& frame, const LayerStyle& style) {
   return content;
 }
 
+LayerContent segmentLabelsLayer(const SceneFrame& frame, const LayerStyle& style) {
+  LayerContent content;
+  const StepRecord& record = frame.record;
+  if (!hasSegments(record)) return content;
+  content.props.push_back(segmentActor(record, distinctColors(record), style));
+  content.legend.push_back(
+      {LegendEntry::Mark::Fill, palette::kDistinct[0], 1.0, "surface, a colour for each segment"});
+  content.legend.push_back({LegendEntry::Mark::Fill, palette::kNoSegment, 1.0, "surface without a segment"});
+  return content;
+}
+
 LayerContent segmentsLayer(const SceneFrame& frame, const LayerStyle& style) {
   LayerContent content;
   const StepRecord& record = frame.record;
-  if (!hasMesh(record) || !record.labels || !record.saliency) return content;
-  const SurfaceCloud& surface = *record.surface;
-  const auto colors = saliencyColors(surface, *record.labels, *record.saliency, style);
-  content.props.push_back(triangleActor(surface.points, surface.normals, surface.triangles, colors,
-                                        palette::kSurface, style.surface_opacity));
+  if (!hasSegments(record)) return content;
+  content.props.push_back(segmentActor(record, saliencyColors(*record.saliency, style), style));
   if (!record.saliency->segments.empty())
     content.scale = ColorScale{mapOf(style), "saliency of the segment", 0.0, style.saliency_max, true};
   content.legend.push_back({LegendEntry::Mark::Fill, palette::kNoSegment, 1.0, "surface without a segment"});

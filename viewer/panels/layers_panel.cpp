@@ -31,6 +31,7 @@ const std::vector<LayerGroup>& layerGroups() {
         {Layer::Truth, "true scene"}}},
       {"Surface",
        {{Layer::Surface, "fused surface"},
+        {Layer::SegmentLabels, "segments, each its colour"},
         {Layer::Segments, "segments by saliency", true},
         {Layer::SegmentRanks, "order of the segments"}}},
       {"Contours", {{Layer::ContourVoxels, "contour voxels"}, {Layer::ContourPoints, "contour points"}}},

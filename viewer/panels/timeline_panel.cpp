@@ -11,6 +11,8 @@
 namespace vantage {
 namespace {
 
+constexpr float kBetweenStages = 2.0f;
+
 struct Curves {
   double most_unknown = 0.0, most_gain = 0.0;
   bool has_coverage = false;
@@ -176,30 +178,66 @@ void transport(PanelContext& context) {
   tip("steps (or stages) a second");
 }
 
+void showStage(PanelContext& context, int stage) {
+  context.model.goTo({context.model.place().step, stage});
+  context.preferences.view.layers = context.model.stages()[stage].layers;
+}
+
+/// Nothing else was switched on or off since.
+bool isShown(const PanelContext& context, int stage) {
+  return stage == context.model.place().stage &&
+         context.preferences.view.layers == context.model.stages()[stage].layers;
+}
+
+float widthOfButtons(const std::vector<StageView>& stages) {
+  float width = 0.0f;
+  for (const StageView& stage : stages)
+    width +=
+        ImGui::CalcTextSize(stage.title.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x + kBetweenStages;
+  return width;
+}
+
 void stageButtons(PanelContext& context) {
-  InspectorModel& model = context.model;
-  const auto& stages = model.stages();
+  const auto& stages = context.model.stages();
   for (int i = 0; i < static_cast<int>(stages.size()); ++i) {
-    if (i > 0) ImGui::SameLine(0.0f, 2.0f);
-    const bool active = i == model.place().stage && context.preferences.view.layers == stages[i].layers;
-    if (active) {
-      const Rgb color = context.theme.accent;
-      ImGui::PushStyleColor(ImGuiCol_Button, packed(color, 0.45));
-    }
-    if (context.widgets.button("timeline/stage " + stages[i].name, stages[i].title, true, stages[i].about)) {
-      model.goTo({model.place().step, i});
-      context.preferences.view.layers = stages[i].layers;
-    }
-    if (active) ImGui::PopStyleColor();
+    if (i > 0) ImGui::SameLine(0.0f, kBetweenStages);
+    const bool shown = isShown(context, i);
+    if (shown) ImGui::PushStyleColor(ImGuiCol_Button, packed(context.theme.accent, 0.45));
+    if (context.widgets.button("timeline/stage " + stages[i].name, stages[i].title, true, stages[i].about))
+      showStage(context, i);
+    if (shown) ImGui::PopStyleColor();
   }
+}
+
+/// The same where there is no room for buttons.
+void stageList(PanelContext& context) {
+  std::vector<std::string> titles;
+  for (const StageView& stage : context.model.stages()) titles.push_back(stage.title);
+  int stage = context.model.place().stage;
+  if (context.widgets.combo("timeline/stages", "", titles, stage, ImGui::GetFontSize() * 7.0))
+    showStage(context, stage);
+  tip(context.model.stages()[context.model.place().stage].about);
+}
+
+void stages(PanelContext& context) {
+  constexpr float kBefore = 16.0f;
+  const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  const float room = end - ImGui::GetItemRectMax().x - kBefore;
+  ImGui::SameLine(0.0f, kBefore);
+  if (widthOfButtons(context.model.stages()) <= room)
+    stageButtons(context);
+  else
+    stageList(context);
 }
 
 void curveLegend(PanelContext& context) {
   const Curves curves = measure(context.model.steps());
   const auto entry = [&](Rgb color, const std::string& text) {
-    ImGui::SameLine();
-    const ImVec2 at = ImGui::GetCursorScreenPos();
     const float size = ImGui::GetFontSize();
+    ImGui::SameLine();
+    const float needed = size + 4.0f + ImGui::CalcTextSize(text.c_str()).x;
+    if (ImGui::GetContentRegionAvail().x < needed) return;  // the strip says it in words under the mouse
+    const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + size * 0.35f}, {at.x + size, at.y + size * 0.7f},
                                               packed(color));
     ImGui::Dummy({size, size});
@@ -220,8 +258,7 @@ void timelinePanel(PanelContext& context) {
     return;
   }
   transport(context);
-  ImGui::SameLine(0.0f, 16.0f);
-  stageButtons(context);
+  stages(context);
   ImGui::Dummy({0.0f, 0.0f});
   curveLegend(context);
   strip(context);
