@@ -1,15 +1,16 @@
-// Legends, colour scales and insets of the layers that are shown, over the 3-D view.
+// Legends and colour scales of the layers that are shown, over the 3-D view.
 #include <imgui.h>
 
 #include <algorithm>
 
-#include "viewer/panels/panel.h"
+#include "viewer/panels/overlays.h"
 #include "viewer/panels/plot.h"
 
 namespace vantage {
 namespace {
 
 constexpr float kTextScale = 0.87f;  ///< of the legend, which stands in the way of the scene
+constexpr float kMark_em = 0.8f, kScale_em = 13.0f, kNarrowScale_em = 8.0f;
 
 /// The sign of a legend entry in a square of the given size.
 void drawMark(ImDrawList& draw, ImVec2 at, float size, const LegendEntry& entry, ImU32 ink) {
@@ -51,9 +52,50 @@ void drawMark(ImDrawList& draw, ImVec2 at, float size, const LegendEntry& entry,
   draw.AddRect(at, end, ink & IM_COL32(255, 255, 255, 90));
 }
 
-void drawScale(ImDrawList& draw, const ColorScale& scale, const Theme& theme) {
-  ImGui::TextUnformatted(scale.title.c_str());
-  const float width = ImGui::GetFontSize() * 13.0f, height = ImGui::GetFontSize() * 0.7f;
+void drawEntry(const LegendEntry& entry, const Theme& theme) {
+  const float size = ImGui::GetFontSize() * kMark_em;
+  drawMark(*ImGui::GetWindowDrawList(), ImGui::GetCursorScreenPos(), size, entry, packed(theme.ink));
+  ImGui::Dummy({size, size});
+  ImGui::SameLine();
+  ImGui::TextWrapped("%s", entry.text.c_str());
+}
+
+/// Width of the widest line, if there is room for it.
+float widthOf(const std::vector<const LayerNotes*>& notes) {
+  const float em = ImGui::GetFontSize() * kTextScale;
+  float widest = 0.0f;
+  for (const LayerNotes* layer : notes) {
+    for (const LegendEntry& entry : layer->legend)
+      widest = std::max(widest, kTextScale * ImGui::CalcTextSize(entry.text.c_str()).x + kMark_em * em +
+                                    ImGui::GetStyle().ItemSpacing.x);
+    if (layer->scale)
+      widest =
+          std::max({widest, kTextScale * ImGui::CalcTextSize(layer->scale->title.c_str()).x, kScale_em * em});
+  }
+  return widest + 2.0f * ImGui::GetStyle().WindowPadding.x + 1.0f;
+}
+
+void drawNotes(const LayerNotes& notes, const Theme& theme) {
+  for (const LegendEntry& entry : notes.legend) drawEntry(entry, theme);
+  if (!notes.scale) return;
+  ImGui::TextWrapped("%s", notes.scale->title.c_str());
+  drawColorScale(*notes.scale, std::min(ImGui::GetFontSize() * kScale_em, ImGui::GetContentRegionAvail().x),
+                 theme);
+}
+
+/// Opens and closes the legend.
+void foldButton(PanelContext& context) {
+  bool& shown = context.preferences.show_legend;
+  if (context.widgets.button("view/legend/fold", shown ? "▼ legend" : "▶ legend", true,
+                             shown ? "hide the legend (G)" : "show what colours and signs mean (G)"))
+    shown = !shown;
+}
+
+}  // namespace
+
+void drawColorScale(const ColorScale& scale, float width, const Theme& theme) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float height = ImGui::GetFontSize() * 0.7f;
   const ImVec2 at = ImGui::GetCursorScreenPos();
   constexpr int kPieces = 32;
   for (int i = 0; i < kPieces; ++i) {
@@ -62,7 +104,8 @@ void drawScale(ImDrawList& draw, const ColorScale& scale, const Theme& theme) {
   }
   ImGui::Dummy({width, height});
   const double step = (scale.high - scale.low) / 2.0;
-  for (int i = 0; i <= 2; ++i) {
+  const int every = width < kNarrowScale_em * ImGui::GetFontSize() ? 2 : 1;  // else the numbers run together
+  for (int i = 0; i <= 2; i += every) {
     const std::string text = (i == 2 && scale.open_top ? "≥ " : "") + shortNumber(scale.low + i * step);
     const float size = ImGui::CalcTextSize(text.c_str()).x;
     draw.AddText({at.x + (width - size) * i / 2.0f, at.y + height + 1.0f}, packed(theme.ink), text.c_str());
@@ -70,36 +113,32 @@ void drawScale(ImDrawList& draw, const ColorScale& scale, const Theme& theme) {
   ImGui::Dummy({width, ImGui::GetFontSize()});
 }
 
-}  // namespace
-
-void legendOverlay(PanelContext& context, double left, double top, double right, double bottom) {
-  const std::vector<const LayerNotes*> notes = context.scene.shownNotes();
-  const bool any = std::ranges::any_of(notes, [](const LayerNotes* n) { return !n->legend.empty(); });
-  if (!any || !context.preferences.show_legend) return;
-  ImGui::SetNextWindowPos({static_cast<float>(left) + 8.0f, static_cast<float>(top) + 8.0f});
-  ImGui::SetNextWindowSizeConstraints(
-      {0.0f, 0.0f}, {static_cast<float>(right - left) * 0.45f, static_cast<float>(bottom - top) - 16.0f});
+float legendOverlay(PanelContext& context, const ViewArea& area) {
+  constexpr float kGap_px = 8.0f, kLargestShare = 0.45f, kTallestShare = 0.7f;
+  std::vector<const LayerNotes*> notes = context.scene.shownNotes();
+  std::erase_if(notes, [](const LayerNotes* n) { return n->legend.empty() && !n->scale; });
+  if (notes.empty()) return 0.0f;
+  const bool shown = context.preferences.show_legend;
+  ImGui::SetNextWindowPos({area.left + kGap_px, area.bottom - kGap_px}, ImGuiCond_Always, {0.0f, 1.0f});
+  const float width = std::min(widthOf(notes), kLargestShare * area.width());
+  if (shown) ImGui::SetNextWindowSize({width, 0.0f});
+  ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {area.width(), kTallestShare * area.height()});
   ImGui::SetNextWindowBgAlpha(0.78f);
-  constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
-                                      ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoInputs |
-                                      ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing;
-  if (ImGui::Begin("legend", nullptr, kFlags)) {
+  constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                      ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
+                                      ImGuiWindowFlags_NoFocusOnAppearing;
+  if (ImGui::Begin("legend", nullptr, kFlags | (shown ? 0 : ImGuiWindowFlags_AlwaysAutoResize))) {
     ImGui::SetWindowFontScale(kTextScale);
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const float size = ImGui::GetFontSize() * 0.8f;
-    for (const LayerNotes* layer : notes) {
-      for (const LegendEntry& entry : layer->legend) {
-        drawMark(draw, ImGui::GetCursorScreenPos(), size, entry, packed(context.theme.ink));
-        ImGui::Dummy({size, size});
-        ImGui::SameLine();
-        ImGui::TextUnformatted(entry.text.c_str());
-      }
-      if (layer->scale) drawScale(draw, *layer->scale, context.theme);
-    }
+    foldButton(context);
+    if (shown)
+      for (const LayerNotes* layer : notes) drawNotes(*layer, context.theme);
     const ImVec2 at = ImGui::GetWindowPos(), extent = ImGui::GetWindowSize();
     context.widgets.note("view/legend", {at.x, at.y, at.x + extent.x, at.y + extent.y, true});
   }
+  const float used = ImGui::GetWindowWidth();
   ImGui::End();
+  return used + kGap_px;
 }
 
 }  // namespace vantage

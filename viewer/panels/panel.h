@@ -34,7 +34,5 @@ void whatIfPanel(PanelContext& context);      ///< parameters
 void candidatesPanel(PanelContext& context);  ///< table of views
 void explainPanel(PanelContext& context);     ///< one view against the winner
 void gainsPanel(PanelContext& context);       ///< predicted against realised gain
-void legendOverlay(PanelContext& context, double left, double top, double right,
-                   double bottom);  ///< over the 3-D view
 
 }  // namespace vantage

@@ -15,8 +15,6 @@
 namespace vantage {
 namespace {
 
-constexpr double kInsetWidth_em = 14.0;
-
 SceneTheme sceneTheme(const Theme& theme) {
   return {theme.paper, theme.ink};
 }
@@ -27,16 +25,7 @@ ImTextureID textureId(unsigned handle) {
 
 }  // namespace
 
-/// The view through a frustum, drawn again when view or scene change.
-struct ViewPanel::Inset {
-  UiTexture texture;
-  std::uint64_t revision = 0;
-  std::optional<std::uint32_t> view;
-  LayerSet layers;
-};
-
-ViewPanel::ViewPanel(GlContext& context, Scene& scene)
-    : scene_(scene), viewport_(context, scene), inset_(std::make_unique<Inset>()) {}
+ViewPanel::ViewPanel(GlContext& context, Scene& scene) : scene_(scene), viewport_(context, scene) {}
 
 ViewPanel::~ViewPanel() = default;
 
@@ -51,8 +40,9 @@ bool ViewPanel::update(PanelContext& context) {
   if (const auto view = model.explainedView()) wanted.style.view_id = static_cast<int>(*view);
   const bool new_data = !has_frame_ || revision_ != model.revision() + model.whatIf().revision();
   const double scale = pixel_scale_ * context.preferences.font_scale;
-  if (!new_data && wanted == arranged_ && arranged_paper_ == context.theme.paper && scale == arranged_scale_)
-    return false;
+  const bool other_look = arranged_paper_ != context.theme.paper || scale != arranged_scale_;
+  if (!new_data && !other_look && wanted == arranged_) return false;
+  if (new_data || other_look) ++insets_revision_;
   if (new_data) scene_.setFrame(shown.frame());
   revision_ = model.revision() + model.whatIf().revision();
   has_frame_ = true;
@@ -147,9 +137,10 @@ void ViewPanel::draw(PanelContext& context, double pixel_scale) {
   if (has_frame_) {
     mouse(context, at.x, at.y);
     overlays(context, at.x, at.y);
-    inset(context, end.x, at.y);
+    const ViewArea area{at.x, at.y, end.x, end.y};
+    const float legend = legendOverlay(context, area);
+    insets_.draw(context, viewport_, area, area.width() - legend, pixel_scale_, insets_revision_);
   }
-  legendOverlay(context, at.x, at.y, end.x, end.y);
   if (!problem_.empty())
     draw.AddText({at.x + 12.0f, end.y - 2 * ImGui::GetFontSize()}, packed(context.theme.warning),
                  problem_.c_str());
@@ -301,37 +292,6 @@ void ViewPanel::overlays(PanelContext& context, double left, double top) {
                          measured_.empty() ? "measuring: click the first point" : "click the second point");
   }
   overlay.draw.PopClipRect();
-}
-
-void ViewPanel::inset(PanelContext& context, double right, double top) {
-  const auto view = context.model.explainedView();
-  if (!context.preferences.show_inset || !view) return;
-  const SceneFrame frame = context.model.shown().frame();
-  const auto pose = poseOfCandidate(frame, *view);
-  if (!pose) return;
-  const PinholeCamera camera = viewCamera(frame);
-  const double width = kInsetWidth_em * ImGui::GetFontSize();
-  const double height = std::clamp(width * camera.height / camera.width, 40.0, 2.0 * width);
-  Inset& inset = *inset_;
-  const LayerSet layers = {Layer::Surface, Layer::Occupied, Layer::HitVoxels, Layer::Occluders};
-  if (inset.view != view || inset.revision != revision_) {
-    inset.view = view;
-    inset.revision = revision_;
-    vtkRenderer* renderer = scene_.inset(eyeOfView(camera, *pose, 0.8), layers);
-    vtkRenderer* const renderers[] = {renderer};
-    inset.texture.set(viewport_.picture(renderers, static_cast<int>(width * pixel_scale_),
-                                        static_cast<int>(height * pixel_scale_)));
-  }
-  const ImVec2 low{static_cast<float>(right - width - 10.0), static_cast<float>(top + 10.0)};
-  const ImVec2 high{static_cast<float>(right - 10.0), static_cast<float>(top + 10.0 + height)};
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float line = ImGui::GetFontSize();
-  draw.AddRectFilled(low, {high.x, high.y + line + 6.0f}, packed(context.theme.panel, 0.9));
-  draw.AddImage(textureId(inset.texture.handle()), low, high);
-  draw.AddRect(low, {high.x, high.y + line + 6.0f}, packed(context.theme.chosen), 0.0f, 0, 2.0f);
-  const std::string title = "view " + std::to_string(*view) + ": predicted to see";
-  draw.AddText({low.x + 5.0f, high.y + 3.0f}, packed(context.theme.ink), title.c_str());
-  context.widgets.note("view/inset", {low.x, low.y, high.x, high.y, true});
 }
 
 }  // namespace vantage

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/gpu/gl_context.h"
+#include "viewer/panels/overlays.h"
 #include "viewer/panels/panel.h"
 #include "viewer/pick.h"
 #include "viewer/viewport.h"
@@ -49,7 +50,6 @@ class ViewPanel {
   void click(PanelContext& context);
   void lookAt(const Eigen::Vector3d& p_world);
   void overlays(PanelContext& context, double left, double top);
-  void inset(PanelContext& context, double right, double top);
 
   Scene& scene_;
   Viewport viewport_;
@@ -66,8 +66,8 @@ class ViewPanel {
   bool measuring_ = false;
   std::vector<Eigen::Vector3d> measured_;  ///< none, one end, or both
   Eigen::Vector2d pressed_at_ = Eigen::Vector2d::Zero();
-  struct Inset;
-  std::unique_ptr<Inset> inset_;
+  ViewInsets insets_;
+  std::uint64_t insets_revision_ = 0;  ///< differs whenever what they show does
 };
 
 }  // namespace vantage

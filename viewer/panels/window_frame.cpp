@@ -42,11 +42,12 @@ bool splitter(PanelContext& context, const char* name, double left, double top, 
   return active;
 }
 
-/// What is being done, and how far.
+/// What is being done, and how far; a look at the file is not worth a word.
 std::string workText(const InspectorModel& model) {
   std::string text;
   for (const auto& work : model.work().running()) {
-    text += (text.empty() ? "" : "   ·   ") + (work.phase.empty() ? work.name : work.phase);
+    if (work.phase.empty()) continue;
+    text += (text.empty() ? "" : "   ·   ") + work.phase;
     if (work.total > 0) text += " " + std::to_string(100 * work.done / work.total) + " %";
   }
   if (model.growing()) text += (text.empty() ? "" : "   ·   ") + std::string("the run is being written");

@@ -1,0 +1,144 @@
+// Pictures beside the scene, over the 3-D view.
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "viewer/panels/overlays.h"
+#include "viewer/panels/plot.h"
+#include "viewer/ui_host.h"
+
+namespace vantage {
+namespace {
+
+constexpr float kWidth_em = 14.0f, kGap_px = 10.0f;
+constexpr float kSmallest_px = 60.0f;  ///< nothing can be seen in less
+constexpr double kNear_m = 0.8;        ///< what the eye of the picture turns about, of no matter here
+
+/// Height of a picture of that shape; long ones are cut.
+float heightOf(float width, int picture_width, int picture_height) {
+  return std::clamp(
+      width * static_cast<float>(picture_height) / static_cast<float>(std::max(1, picture_width)), 40.0f,
+      2.0f * width);
+}
+
+/// A texture that is filled when what it shows changes.
+struct Picture {
+  UiTexture texture;
+  std::uint64_t revision = 0;
+  std::uint64_t what = 0;
+  int width = 0;
+  bool filled = false;
+
+  bool isOf(std::uint64_t wanted_revision, std::uint64_t wanted, int wanted_width) const {
+    return filled && revision == wanted_revision && what == wanted && width == wanted_width;
+  }
+  void set(const RgbImage& image, std::uint64_t of_revision, std::uint64_t of, int of_width) {
+    texture.set(image);
+    revision = of_revision;
+    what = of;
+    width = of_width;
+    filled = true;
+  }
+};
+
+/// Places insets from the top downward.
+class Column {
+ public:
+  Column(PanelContext& context, const ViewArea& area, float width)
+      : context_(context), area_(area), width_(width), top_(area.top + kGap_px) {}
+
+  float width() const { return width_; }
+  /// There is room for a picture of that height and what is written below it.
+  bool hasRoom(float height) const { return top_ + height + ImGui::GetFontSize() <= area_.bottom; }
+
+  /// \param scale below the picture; null: none
+  void add(const std::string& name, const std::string& title, const Picture& picture, float height,
+           const ColorScale* scale, Rgb border) {
+    const float line = ImGui::GetFontSize(), wrap = width_ - 10.0f;
+    const float text = ImGui::CalcTextSize(title.c_str(), nullptr, false, wrap).y;
+    const float below = (text + 6.0f) + (scale ? 2.2f * line : 0.0f);
+    const ImVec2 low{area_.right - kGap_px - width_, top_}, high{area_.right - kGap_px, top_ + height};
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddRectFilled(low, {high.x, high.y + below}, packed(context_.theme.panel, 0.9));
+    draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture.texture.handle())), low,
+                  high);
+    draw.AddRect(low, {high.x, high.y + below}, packed(border), 0.0f, 0, 2.0f);
+    draw.AddText(nullptr, 0.0f, {low.x + 5.0f, high.y + 3.0f}, packed(context_.theme.ink), title.c_str(),
+                 nullptr, wrap);
+    if (scale) {
+      ImGui::SetCursorScreenPos({low.x + 8.0f, high.y + text + 7.0f});
+      drawColorScale(*scale, width_ - 16.0f, context_.theme);
+    }
+    context_.widgets.note(name, {low.x, low.y, high.x, high.y + below, true});
+    top_ = high.y + below + kGap_px;
+  }
+
+ private:
+  PanelContext& context_;
+  ViewArea area_;
+  float width_, top_;
+};
+
+}  // namespace
+
+struct ViewInsets::State {
+  Picture view, layer;
+
+  void drawView(PanelContext& context, Viewport& viewport, Column& column, double pixel_scale,
+                std::uint64_t revision);
+  void drawLayers(PanelContext& context, Column& column, std::uint64_t revision);
+};
+
+ViewInsets::ViewInsets() : state_(std::make_unique<State>()) {}
+ViewInsets::~ViewInsets() = default;
+
+/// The map through the explained view, with what it counts and what ends its rays.
+void ViewInsets::State::drawView(PanelContext& context, Viewport& viewport, Column& column,
+                                 double pixel_scale, std::uint64_t revision) {
+  const auto id = context.model.explainedView();
+  if (!context.preferences.show_inset || !id) return;
+  const SceneFrame frame = context.model.shown().frame();
+  const auto pose = poseOfCandidate(frame, *id);
+  if (!pose) return;
+  const PinholeCamera camera = viewCamera(frame);
+  const float height = heightOf(column.width(), camera.width, camera.height);
+  if (!column.hasRoom(height)) return;
+  const int width_px = static_cast<int>(std::lround(column.width() * pixel_scale));
+  if (!view.isOf(revision, *id, width_px)) {
+    static const LayerSet kLayers = {Layer::Surface, Layer::Occupied, Layer::HitVoxels, Layer::Occluders};
+    vtkRenderer* const renderers[] = {context.scene.inset(eyeOfView(camera, *pose, kNear_m), kLayers)};
+    view.set(viewport.picture(renderers, width_px, static_cast<int>(std::lround(height * pixel_scale))),
+             revision, *id, width_px);
+  }
+  column.add("view/inset", "view " + std::to_string(*id) + ": predicted to see", view, height, nullptr,
+             context.theme.chosen);
+}
+
+/// The depth image is the only layer with a picture; a second one would want a texture of its own.
+void ViewInsets::State::drawLayers(PanelContext& context, Column& column, std::uint64_t revision) {
+  for (const LayerNotes* notes : context.scene.shownNotes()) {
+    if (!notes->inset) continue;
+    const Inset& inset = *notes->inset;
+    const float height = heightOf(column.width(), inset.image.width, inset.image.height);
+    if (!column.hasRoom(height)) return;
+    const auto map = static_cast<std::uint64_t>(inset.scale.map);
+    if (!layer.isOf(revision, map, inset.image.width))
+      layer.set(inset.image, revision, map, inset.image.width);
+    column.add("view/depth", inset.title, layer, height, &inset.scale, context.theme.faint);
+    return;
+  }
+}
+
+void ViewInsets::draw(PanelContext& context, Viewport& viewport, const ViewArea& area, float room,
+                      double pixel_scale, std::uint64_t revision) {
+  const float width = std::min(kWidth_em * ImGui::GetFontSize(), room - 2.0f * kGap_px);
+  if (width < kSmallest_px) return;
+  Column column(context, area, width);
+  state_->drawView(context, viewport, column, pixel_scale, revision);
+  state_->drawLayers(context, column, revision);
+}
+
+}  // namespace vantage
