@@ -221,7 +221,8 @@ void Window::show(Inspector& inspector) {
   const auto start = Clock::now();
   auto last = start;
   state_->wantFrames();
-  while (!glfwWindowShouldClose(state_->window) && !inspector.wantsToClose()) {
+  const std::stop_token& stop = state_->options.stop;
+  while (!glfwWindowShouldClose(state_->window) && !inspector.wantsToClose() && !stop.stop_requested()) {
     if (state_->frames_wanted > 0)
       glfwPollEvents();
     else

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <stdexcept>
+#include <stop_token>
 #include <string>
 
 #include "viewer/inspector.h"
@@ -17,6 +18,7 @@ struct WindowOptions {
   std::string title = "Vantage";
   int width = 1280, height = 800;  ///< of the window, in its own units
   double quit_after_s = 0.0;       ///< > 0: closes by itself, for tests
+  std::stop_token stop;            ///< asked for: closes as by a click, within half a second
 };
 
 /// The real window of the inspector: GLFW on X11 or XWayland.

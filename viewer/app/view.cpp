@@ -66,11 +66,13 @@ int drawWindow(const GlobalOptions& global, const ViewOptions& options,
   return 0;
 }
 
-int openWindow(const ViewOptions& options, const std::vector<std::filesystem::path>& files) {
+int openWindow(const GlobalOptions& global, const ViewOptions& options, const std::vector<std::filesystem::path>& files) {
   const std::filesystem::path kept = preferencesPath();
   std::string problem;
   Preferences preferences = loadPreferences(kept, &problem);
+  Console console(global);  // a signal closes the window like a click: what was set is kept
   WindowOptions window_options;
+  window_options.stop = console.control().stop;
   window_options.width = preferences.window_width;
   window_options.height = preferences.window_height;
   window_options.quit_after_s = options.seconds;
@@ -92,7 +94,7 @@ int openWindow(const ViewOptions& options, const std::vector<std::filesystem::pa
 int view(const GlobalOptions& global, const ViewOptions& options) {
   const auto files = knownFiles(options.files);
   if (!options.picture.empty()) return drawWindow(global, options, files);
-  return openWindow(options, files);
+  return openWindow(global, options, files);
 }
 
 }  // namespace
