@@ -10,7 +10,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kFollowEvery_s = 0.5;
+constexpr double kFollowEvery_s = 0.5, kWatchEvery_s = 2.0;  // a run that grows, and one that is whole
 constexpr double kInfoShown_s = 8.0;
 constexpr std::size_t kMostNotices = 4;
 
@@ -116,6 +116,7 @@ void InspectorModel::takeOver(std::shared_ptr<RunSession> session, std::filesyst
   ++revision_;
   steps_.clear();
   finished_ = true;
+  lost_ = false;
   if (!session_) return;
   setSteps(session_->summaries());
   finished_ = session_->finished();
@@ -188,14 +189,17 @@ void InspectorModel::show(StepData data, int index) {
 }
 
 void InspectorModel::follow() {
-  work_.start(kFollow, [this, session = session_](const RunControl&) {
+  work_.start(kFollow, [this, session = session_, finished = finished_](const RunControl&) {
     const Followed news = session->refresh();
+    Followed nothing;
+    nothing.finished = finished;
+    if (news == nothing) return BackgroundWork::Finish();  // nor is anything drawn
     std::vector<StepSummary> steps;
     if (news.grown || news.replaced || news.finished) steps = session->summaries();
     return BackgroundWork::Finish([this, news, steps = std::move(steps)]() mutable {
       const std::string name = file_.filename().string();
       if (news.gone || !news.problem.empty()) {
-        finished_ = true;
+        lost_ = true;
         say(Notice::Level::Warning, (news.gone ? name + " is gone" : news.problem) +
                                         "; what is loaded stays, other steps cannot be shown");
         return;
@@ -231,7 +235,7 @@ bool InspectorModel::update(double elapsed_s) {
   }
   changed |= was_playing != player.playing();
   since_follow_s_ += elapsed_s;
-  if (growing() && since_follow_s_ >= kFollowEvery_s) {
+  if (session_ && !lost_ && since_follow_s_ >= (growing() ? kFollowEvery_s : kWatchEvery_s)) {
     since_follow_s_ = 0.0;
     follow();
   }
@@ -252,7 +256,9 @@ PlannerKind InspectorModel::planner() const {
 }
 
 const std::vector<StageView>& InspectorModel::stages() const {
-  return stageViews(planner());
+  if (!isRun()) return stageViews(planner(), StepContent::File);
+  const bool closing = !recorded_.empty() && recorded_.record->closing;
+  return stageViews(planner(), closing ? StepContent::Closing : StepContent::Planned);
 }
 
 std::optional<std::uint32_t> InspectorModel::explainedView() const {

@@ -53,7 +53,7 @@ class InspectorModel {
   bool isRun() const { return session_ != nullptr; }
   bool loading() const;
   /// The run is still being written.
-  bool growing() const { return session_ && !finished_; }
+  bool growing() const { return session_ && !finished_ && !lost_; }
 
   // Timeline
   Player player;
@@ -103,6 +103,7 @@ class InspectorModel {
   std::filesystem::path file_;
   std::shared_ptr<RunSession> session_;  ///< used by jobs only, one at a time
   bool finished_ = true;
+  bool lost_ = false;  ///< the file is gone or cannot be read any more
   bool opening_ = false;
   std::vector<StepSummary> steps_;
   TimelinePlace place_;

@@ -19,6 +19,7 @@ struct Followed {
   bool replaced = false;  ///< another file lies at the path, which is to be opened anew
   bool gone = false;      ///< no file lies at the path
   std::string problem;    ///< why the file cannot be read any more; else empty
+  bool operator==(const Followed&) const = default;
 };
 
 /// One run file that is looked at, step by step in any order, also while it is written. One thread at a time

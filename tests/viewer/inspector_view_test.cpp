@@ -1,0 +1,193 @@
+// What stands around and over the 3-D view: stages, legend, pictures beside the scene, small windows; and
+// what becomes of a file that is looked at.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <set>
+#include <thread>
+
+#include "tests/support/process.h"
+#include "tests/support/recorded_run.h"
+#include "tests/viewer/inspector_driver.h"
+#include "viewer/commands.h"
+
+namespace vantage {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::InspectorDriver;
+
+/// Records a run once for all tests.
+class InspectorViewTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    unsetenv("DISPLAY");
+    folder_ = new test::TemporaryFolder;
+    testing::recordRun(testing::ballScene(), {"exploration.steps=2"}, run());
+  }
+  static void TearDownTestSuite() { delete folder_; }
+  static std::string run() { return *folder_ / "ball.vantage"; }
+
+  static test::TemporaryFolder* folder_;
+};
+test::TemporaryFolder* InspectorViewTest::folder_ = nullptr;
+
+/// Colours in a widget's box.
+std::size_t coloursIn(InspectorDriver& driver, const std::string& name) {
+  const WidgetBox* box = driver.inspector.widgets().find(name);
+  if (!box) return 0;
+  const RgbImage image = driver.ui.image();
+  std::set<std::array<std::uint8_t, 3>> colours;
+  for (int y = static_cast<int>(box->top) + 3; y < static_cast<int>(box->bottom) - 3; ++y)
+    for (int x = static_cast<int>(box->left) + 3; x < static_cast<int>(box->right) - 3; ++x)
+      colours.insert(image.at(x, y));
+  return colours.size();
+}
+
+bool overlap(const WidgetBox& a, const WidgetBox& b) {
+  return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+}
+
+TEST_F(InspectorViewTest, TheOverviewIsAStageThatOneComesBackTo) {
+  InspectorDriver driver;
+  driver.open(run());
+  const LayerSet overview = driver.model().stages().front().layers;
+  EXPECT_EQ(driver.inspector.preferences().view.layers, overview);
+  driver.ui.press({Key::PageDown});
+  driver.ui.settle();
+  EXPECT_EQ(driver.model().stages()[driver.model().place().stage].name, "scan");
+  driver.ui.click("timeline/stage overview");
+  driver.ui.settle();
+  EXPECT_EQ(driver.inspector.preferences().view.layers, overview);
+}
+
+TEST_F(InspectorViewTest, TheOverviewOfTheMapAtTheEndShowsWhatIsOccupied) {
+  InspectorDriver driver;
+  driver.open(run());
+  EXPECT_FALSE(driver.inspector.preferences().view.layers.has(Layer::Occupied));
+  driver.ui.press({Key::End});
+  driver.ui.settle();
+  ASSERT_TRUE(driver.model().shown().record->closing);
+  EXPECT_TRUE(driver.inspector.preferences().view.layers.has(Layer::Occupied));
+  driver.ui.press({Key::Home});
+  driver.ui.settle();
+  EXPECT_FALSE(driver.inspector.preferences().view.layers.has(Layer::Occupied));
+}
+
+TEST_F(InspectorViewTest, LayersThatWereSwitchedByHandStayFromStepToStep) {
+  InspectorDriver driver;
+  driver.open(run());
+  driver.ui.press({keyOf('4')});  // occupied voxels, beside the overview
+  driver.ui.settle();
+  const LayerSet mine = driver.inspector.preferences().view.layers;
+  ASSERT_TRUE(mine.has(Layer::Occupied));
+  driver.ui.press({Key::End});
+  driver.ui.settle();
+  EXPECT_EQ(driver.inspector.preferences().view.layers, mine);
+}
+
+TEST_F(InspectorViewTest, SegmentsHaveAColourEachInTheirStage) {
+  InspectorDriver driver;
+  driver.open(run());
+  driver.ui.click("timeline/stage segments");
+  driver.ui.moveMouse(5, 790);
+  driver.ui.settle();
+  const RgbImage labels = driver.ui.image();
+  EXPECT_TRUE(driver.inspector.preferences().view.layers.has(Layer::SegmentLabels));
+  driver.ui.click("timeline/stage saliency");
+  driver.ui.moveMouse(5, 790);
+  driver.ui.settle();
+  EXPECT_GT(InspectorDriver::differing(labels, driver.ui.image()), 2000);
+}
+
+TEST_F(InspectorViewTest, TheScanComesWithItsDepthImage) {
+  InspectorDriver driver;
+  driver.open(run());
+  EXPECT_FALSE(driver.ui.has("view/depth"));
+  driver.ui.click("timeline/stage scan");
+  driver.ui.settle();
+  ASSERT_TRUE(driver.ui.has("view/depth"));
+  EXPECT_GT(coloursIn(driver, "view/depth"), 20u);
+}
+
+TEST_F(InspectorViewTest, TheLegendIsFoldedAway) {
+  InspectorDriver driver;
+  driver.open(run());
+  const WidgetBox open = *driver.inspector.widgets().find("view/legend");
+  driver.ui.click("view/legend/fold");
+  driver.ui.settle();
+  const WidgetBox folded = *driver.inspector.widgets().find("view/legend");
+  EXPECT_LT(folded.bottom - folded.top, (open.bottom - open.top) / 3.0);
+  driver.ui.click("view/legend/fold");
+  driver.ui.settle();
+  EXPECT_GT(driver.inspector.widgets().find("view/legend")->right, folded.right);
+}
+
+TEST_F(InspectorViewTest, InASmallWindowLegendAndPicturesDoNotCoverEachOther) {
+  InspectorDriver driver({}, 700, 500);
+  driver.open(run());
+  ASSERT_TRUE(driver.ui.has("view/legend"));
+  ASSERT_TRUE(driver.ui.has("view/inset"));
+  EXPECT_FALSE(overlap(*driver.inspector.widgets().find("view/legend"),
+                       *driver.inspector.widgets().find("view/inset")));
+}
+
+TEST_F(InspectorViewTest, InASmallWindowStagesAreChosenFromAList) {
+  InspectorDriver driver({}, 700, 500);
+  driver.open(run());
+  EXPECT_FALSE(driver.ui.has("timeline/stage scan"));
+  driver.ui.click("timeline/stages");
+  driver.ui.click("timeline/stages/Scan");
+  driver.ui.settle();
+  EXPECT_TRUE(driver.inspector.preferences().view.layers.has(Layer::Sensor));
+  EXPECT_LE(driver.inspector.widgets().find("timeline/stages")->right, 700.0);
+}
+
+TEST_F(InspectorViewTest, TheTitleNeverRunsOffTheWindow) {
+  for (const int width : {420, 700, 1280}) {
+    InspectorDriver driver({}, width, 500);
+    driver.open(run());
+    const WidgetBox* title = driver.inspector.widgets().find("menu/title");
+    ASSERT_TRUE(title);
+    EXPECT_LE(title->right, width) << width;
+  }
+}
+
+TEST_F(InspectorViewTest, ARunThatIsWholeAndThenDeletedIsTold) {
+  const std::string copy = *folder_ / "copy.vantage";
+  std::filesystem::copy_file(run(), copy, std::filesystem::copy_options::overwrite_existing);
+  InspectorDriver driver;
+  driver.open(copy);
+  std::filesystem::remove(copy);
+  for (int i = 0; i < 60 && driver.notices().empty(); ++i) {
+    driver.ui.frame(0.25);
+    driver.ui.settle();
+  }
+  EXPECT_THAT(driver.notices(), HasSubstr("copy.vantage is gone"));
+  EXPECT_FALSE(driver.model().shown().empty());
+}
+
+TEST_F(InspectorViewTest, WatchingARunThatIsWholeDrawsNothing) {
+  InspectorDriver driver;
+  driver.open(run());
+  const std::uint64_t before = driver.inspector.picturesRendered();
+  bool changed = false;
+  for (int i = 0; i < 100; ++i) {
+    changed |= driver.inspector.update(0.25);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  EXPECT_FALSE(changed) << "a window would draw a frame";
+  EXPECT_EQ(driver.inspector.picturesRendered(), before);
+}
+
+TEST_F(InspectorViewTest, AFileWithoutAPlanShowsWhatItHolds) {
+  InspectorDriver driver;
+  driver.open(testing::ballScene());
+  EXPECT_TRUE(driver.inspector.preferences().view.layers.has(Layer::Truth));
+  driver.open(run());
+  EXPECT_FALSE(driver.inspector.preferences().view.layers.has(Layer::Truth));
+}
+
+}  // namespace
+}  // namespace vantage
