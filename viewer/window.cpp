@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <deque>
 #include <optional>
@@ -71,6 +72,9 @@ struct Window::State {
 
   /// Dear ImGui takes some frames to come to rest after an event.
   void wantFrames() { frames_wanted = 3; }
+  double pixelScale() const;
+  double unitScale() const;
+  void fitMonitor();
   void drawFrame(double elapsed_s);
   void showPress();
 };
@@ -124,6 +128,7 @@ Window::Window(const WindowOptions& options) : state_(std::make_unique<State>())
     lastError() = reason;
     fail("no window: OpenGL 3.2 is needed and the display does not offer it");
   }
+  state_->fitMonitor();
   state_->context = std::make_unique<GlfwContext>(state_->window);
   state_->context->makeCurrent();
   glfwSwapInterval(1);
@@ -162,13 +167,13 @@ std::string Window::pasted() const {
 int Window::width() const {
   int width = 0, height = 0;
   glfwGetWindowSize(state_->window, &width, &height);
-  return width;
+  return static_cast<int>(std::lround(width / state_->unitScale()));
 }
 
 int Window::height() const {
   int width = 0, height = 0;
   glfwGetWindowSize(state_->window, &width, &height);
-  return height;
+  return static_cast<int>(std::lround(height / state_->unitScale()));
 }
 
 void Window::State::showPress() {
@@ -194,24 +199,46 @@ void Window::State::showPress() {
   std::copy(std::begin(io.KeysDown), std::end(io.KeysDown), shown.begin());
 }
 
-void Window::State::drawFrame(double elapsed_s) {
+/// Pixels per unit of the window.
+double Window::State::pixelScale() const {
+  int in_units = 1, in_pixels = 1, ignored = 0;
+  glfwGetWindowSize(window, &in_units, &ignored);
+  glfwGetFramebufferSize(window, &in_pixels, &ignored);
+  return static_cast<double>(in_pixels) / std::max(1, in_units);
+}
+
+/// How much larger than usual things must be in the window's units: the monitor's scale, where the unit is
+/// the pixel.
+double Window::State::unitScale() const {
   float scale_x = 1.0f, scale_y = 1.0f;
   glfwGetWindowContentScale(window, &scale_x, &scale_y);
-  int window_width = 1, window_height = 1, width = 1, height = 1;
-  glfwGetWindowSize(window, &window_width, &window_height);
+  return std::max(1.0, scale_x / pixelScale());
+}
+
+/// A window that is larger than its monitor would hide its right and lower parts.
+void Window::State::fitMonitor() {
+  int left = 0, top = 0, most_width = 0, most_height = 0, width = 0, height = 0;
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  if (!monitor) return;
+  glfwGetMonitorWorkarea(monitor, &left, &top, &most_width, &most_height);
+  glfwGetWindowSize(window, &width, &height);
+  if (most_width <= 0 || most_height <= 0 || (width <= most_width && height <= most_height)) return;
+  glfwSetWindowSize(window, std::min(width, most_width), std::min(height, most_height));
+  glfwSetWindowPos(window, left, top);
+}
+
+void Window::State::drawFrame(double elapsed_s) {
+  int width = 1, height = 1;
   glfwGetFramebufferSize(window, &width, &height);
   if (width <= 0 || height <= 0) return;  // iconified
-  const double pixel_scale = static_cast<double>(width) / std::max(1, window_width);
-  // Where the window's unit is the pixel, the monitor's scale is left for the font.
   const Preferences& preferences = inspector->preferences();
-  host->setLook(preferences.theme,
-                kBaseFont_px * preferences.font_scale * std::max(1.0, scale_x / pixel_scale));
+  host->setLook(preferences.theme, kBaseFont_px * preferences.font_scale * unitScale());
   host->makeCurrent();
   ImGui_ImplGlfw_NewFrame();
   showPress();
   ImGui::GetIO().DeltaTime = static_cast<float>(elapsed_s);
   host->begin();
-  inspector->draw(pixel_scale);
+  inspector->draw(pixelScale());
   host->end(0, width, height);
   glfwSwapBuffers(window);
 }

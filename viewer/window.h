@@ -16,7 +16,7 @@ class WindowUnavailable : public std::runtime_error {
 
 struct WindowOptions {
   std::string title = "Vantage";
-  int width = 1280, height = 800;  ///< of the window, in its own units
+  int width = 1280, height = 800;  ///< of the window, as if its monitor had pixels of the usual size
   double quit_after_s = 0.0;       ///< > 0: closes by itself, for tests
   std::stop_token stop;            ///< asked for: closes as by a click, within half a second
 };
@@ -34,7 +34,7 @@ class Window {
   void wake();
   void copy(const std::string& utf8);
   std::string pasted() const;
-  /// Size of the window, in its own units.
+  /// Size of the window, in the units of WindowOptions.
   int width() const;
   int height() const;
 

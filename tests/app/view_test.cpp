@@ -1,4 +1,5 @@
 // `vantage view`: the task it was made for, done by a scripted user; and the real window.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,6 +19,7 @@ using test::ProcessOptions;
 using test::ProcessResult;
 using test::runProcess;
 using test::TemporaryFolder;
+using ::testing::HasSubstr;
 using testing::InspectorDriver;
 
 const std::string kB = "saliency.isolation_distance_m";
@@ -70,8 +72,8 @@ TEST(View, AScriptedUserFindsTheIsolationDistanceThatKeepsTheSmallBallSalient) {
   ASSERT_EQ(test::readFile(folder / "found.toml"), driver.clipboard);
 
   explored = runVantage({"explore", scene, "--config", "found.toml", "--steps", "1", "-o", "again.vantage",
-                      "--json", "again.json"},
-                     folder);
+                         "--json", "again.json"},
+                        folder);
   ASSERT_EQ(explored.code, 0) << explored.err;
   const auto step = nlohmann::json::parse(test::readFile(folder / "again.json")).at("steps").at(0);
   for (int i = 0; i < 3; ++i)
@@ -132,26 +134,51 @@ std::size_t colorsOnScreen(const std::string& file) {
   return colors.size();
 }
 
+/// Runs a script in a folder with an X server of its own, whose screen is kept in the file `screen` until the
+/// last line; `$window` is the inspector's process.
+ProcessResult underXvfb(const TemporaryFolder& folder, const std::string& before,
+                        const std::string& arguments, const std::string& after) {
+  const std::string script = R"(
+Xvfb -displayfd 3 -screen 0 1280x800x24 -fbdir . -nolisten tcp -noreset 3>display 2>/dev/null & server=$!
+trap 'kill $server' EXIT
+for i in $(seq 100); do [ -s display ] && break; sleep 0.1; done
+export DISPLAY=:$(cat display) XDG_STATE_HOME=$PWD/state
+)" + before + "\n" VANTAGE_BINARY " view " +
+                             arguments + " & window=$!\n" + after + "\n";
+  ProcessOptions options;
+  options.folder = folder.path();
+  return runProcess({"/bin/bash", "-c", script}, options);
+}
+
+std::string remembered(const TemporaryFolder& folder) {
+  const std::string file = folder / "state/vantage/inspector.toml";
+  return std::filesystem::exists(file) ? test::readFile(file) : "";
+}
+
 TEST(View, OpensARealWindowAndRemembersIt) {
   const TemporaryFolder folder;
   testing::recordRun(testing::ballScene(), {"exploration.steps=1"}, folder / "run.vantage");
-  const std::string script = R"(
-Xvfb -displayfd 3 -screen 0 1280x800x24 -fbdir . -nolisten tcp 3>display 2>/dev/null & server=$!
-for i in $(seq 100); do [ -s display ] && break; sleep 0.1; done
-export DISPLAY=:$(cat display) XDG_STATE_HOME=$PWD/state
-")" VANTAGE_BINARY R"(" view run.vantage --seconds 20 & window=$!
+  const ProcessResult result = underXvfb(folder, "", "run.vantage --seconds 20", R"(
 for i in $(seq 60); do sleep 0.25; cp Xvfb_screen0 screen; done
-wait $window; code=$?
-kill $server
-exit $code
-)";
-  ProcessOptions options;
-  options.folder = folder.path();
-  const ProcessResult result = runProcess({"/bin/bash", "-c", script}, options);
+wait $window)");
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_GT(colorsOnScreen(folder / "screen"), 300u) << "the window shows no scene";
-  EXPECT_TRUE(std::filesystem::exists(folder / "state/vantage/inspector.toml"));
-  EXPECT_NE(test::readFile(folder / "state/vantage/inspector.toml").find("run.vantage"), std::string::npos);
+  EXPECT_THAT(remembered(folder), HasSubstr("run.vantage"));
+}
+
+TEST(View, AFileDroppedOnARealWindowIsOpenedAndASignalClosesItLikeAClick) {
+  const TemporaryFolder folder;
+  testing::recordRun(testing::ballScene(), {"exploration.steps=1"}, folder / "dropped.vantage");
+  const ProcessResult result = underXvfb(folder, X_CLIENT " dpi 192", "", R"(
+for i in $(seq 100); do )" X_CLIENT R"( drop dropped.vantage 2>drop.log && break; sleep 0.2; done
+for i in $(seq 40); do sleep 0.25; cp Xvfb_screen0 screen; done
+kill -TERM $window
+wait $window)");
+  EXPECT_EQ(result.code, 0) << result.err << test::readFile(folder / "drop.log");
+  EXPECT_GT(colorsOnScreen(folder / "screen"), 300u) << "the window shows no scene";
+  EXPECT_THAT(remembered(folder), HasSubstr("dropped.vantage"));
+  // The monitor has half as many points as pixels: the next window is not larger than this one was.
+  EXPECT_THAT(remembered(folder), HasSubstr("width = 640"));
 }
 
 }  // namespace
