@@ -15,6 +15,9 @@ namespace vantage {
 template <class Map>
 class MapPool {
  public:
+  /// \param most maps to keep: where more are held at a time, those that are given back first are freed.
+  explicit MapPool(std::size_t most) : most_(most) {}
+
   /// The map at a step. \param make a new map, at whatever step it says. \param move (map, step) brings a map
   /// to the step; if it throws, the map is thrown away.
   template <class Make, class Move>
@@ -34,10 +37,10 @@ class MapPool {
     return lend(*slot);
   }
 
-  /// A map that nobody holds can be used, or there are fewer than `most`.
-  bool hasRoom(std::size_t most) const {
+  /// at() needs no map more than are kept.
+  bool hasRoom() const {
     const std::lock_guard lock(shelf_->mutex);
-    return shelf_->slots.size() < most ||
+    return shelf_->slots.size() < most_ ||
            std::ranges::any_of(shelf_->slots, [](const auto& slot) { return slot->free; });
   }
 
@@ -85,7 +88,15 @@ class MapPool {
 
   void remove(Slot* slot) {
     const std::lock_guard lock(shelf_->mutex);
-    std::erase_if(shelf_->slots, [&](const auto& each) { return each.get() == slot; });
+    take(*shelf_, slot);
+  }
+
+  /// Takes a slot off the shelf, whose mutex is held.
+  static std::unique_ptr<Slot> take(Shelf& shelf, const Slot* slot) {
+    const auto at = std::ranges::find(shelf.slots, slot, &std::unique_ptr<Slot>::get);
+    std::unique_ptr<Slot> taken = std::move(*at);
+    shelf.slots.erase(at);
+    return taken;
   }
 
   std::shared_ptr<const Map> lend(Slot& slot) {
@@ -93,9 +104,12 @@ class MapPool {
       const std::lock_guard lock(shelf_->mutex);
       slot.free = false;
     }
-    const auto give_back = [shelf = shelf_, &slot](const Map*) {
+    const auto give_back = [shelf = shelf_, &slot, most = most_](const Map*) {
+      std::unique_ptr<Slot> surplus;  // freed outside the lock
       const std::lock_guard lock(shelf->mutex);
       slot.free = true;
+      slot.handed_out.reset();  // it keeps this function, which keeps the shelf
+      if (shelf->slots.size() > most) surplus = take(*shelf, &slot);
     };
     std::shared_ptr<const Map> handed_out(slot.map.get(), give_back);
     const std::lock_guard lock(shelf_->mutex);
@@ -103,6 +117,7 @@ class MapPool {
     return handed_out;
   }
 
+  std::size_t most_;
   std::shared_ptr<Shelf> shelf_ = std::make_shared<Shelf>();
 };
 

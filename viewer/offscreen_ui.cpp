@@ -82,6 +82,7 @@ void OffscreenUi::frame(double elapsed_s) {
   state_->host.begin();
   inspector.draw(1.0);
   state_->host.end(state_->surface.framebuffer(), state_->width, state_->height);
+  state_->surface.finish();
   io.MouseWheel = 0.0f;
 }
 

@@ -47,14 +47,13 @@ StepData RunSession::load(int step) {
 }
 
 void RunSession::prepare(int step) {
-  constexpr std::size_t kMostMaps = 2;
   const auto found = std::ranges::find(summaries_, step, &StepSummary::step);
   if (found == summaries_.end()) return;
   StepRecord record;
   record.planner = found->planner;
   if (usesOctree(plannerKindOf(*header_, record)) && header_->octree) {
-    if (octrees_.hasRoom(kMostMaps)) octreeAt(step);
-  } else if (volumes_.hasRoom(kMostMaps)) {
+    if (octrees_.hasRoom()) octreeAt(step);
+  } else if (volumes_.hasRoom()) {
     volumeAt(step);
   }
 }

@@ -53,6 +53,7 @@ class RunSession {
   Followed refresh();
 
  private:
+  static constexpr std::size_t kMostMaps = 2;  ///< one that is shown, one for the step that comes next
   struct VolumeMap {
     TsdfVolume volume;
     StateGrid states;
@@ -73,8 +74,8 @@ class RunSession {
   std::shared_ptr<const RunHeader> header_;
   std::vector<StepSummary> summaries_;
   bool finished_ = false;
-  MapPool<VolumeMap> volumes_;
-  MapPool<OctreeMap> octrees_;
+  MapPool<VolumeMap> volumes_{kMostMaps};
+  MapPool<OctreeMap> octrees_{kMostMaps};
   std::shared_ptr<const RayTree> tree_;
   std::map<int, Exclusions> exclusions_;  ///< by the step before which they hold
 };

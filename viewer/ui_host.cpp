@@ -152,6 +152,11 @@ UiSurface::~UiSurface() {
   glDeleteTextures(1, &texture_);
 }
 
+void UiSurface::finish() const {
+  context_.makeCurrent();
+  glFinish();
+}
+
 RgbImage UiSurface::read() const {
   context_.makeCurrent();
   RgbImage upside_down(width_, height_), image(width_, height_);

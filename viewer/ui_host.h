@@ -44,6 +44,9 @@ class UiSurface {
 
   unsigned framebuffer() const { return framebuffer_; }
   RgbImage read() const;
+  /// Waits until what was drawn is there, as a window does when its buffers change: software drivers would
+  /// else pile up the geometry of many frames.
+  void finish() const;
 
  private:
   GlContext& context_;

@@ -59,6 +59,14 @@ void WhatIf::fail(const std::string& message) {
 }
 
 void WhatIf::clear() {
+  leaveStep();
+  recorded_ = shown_ = {};
+  edits_.setRecorded({});
+  has_settings_ = false;
+}
+
+/// Lets go of all that was made for the step, its map too, which the next step may need the room of.
+void WhatIf::leaveStep() {
   cancel();
   ++step_;
   context_.reset();
@@ -66,9 +74,6 @@ void WhatIf::clear() {
   base_.reset();
   recorded_groups_.reset();
   groups_.reset();
-  recorded_ = shown_ = {};
-  edits_.setRecorded({});
-  has_settings_ = false;
   state_ = WhatIfState::Unavailable;
   failure_.clear();
   pending_groups_ = 0;
@@ -76,14 +81,8 @@ void WhatIf::clear() {
 }
 
 void WhatIf::setStep(const StepData& recorded, std::shared_ptr<const WhatIfContext> context) {
-  cancel();
-  ++step_;
+  leaveStep();
   recorded_ = shown_ = recorded;
-  context_.reset();
-  failure_.clear();
-  pending_groups_ = 0;
-  state_ = WhatIfState::Unavailable;
-  ++revision_;
   if (!context || !canPlanAgain(recorded, context->planner)) return;
   if (!has_settings_) edits_.setRecorded(context->settings);
   has_settings_ = true;

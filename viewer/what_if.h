@@ -70,6 +70,7 @@ class WhatIf {
   bool busy() const;
 
  private:
+  void leaveStep();
   void update();
   void showRecorded();
   void rerank();

@@ -29,14 +29,14 @@ void move(Counter& counter, int step) {
 }
 
 TEST(MapPool, HandsOutTheSameMapWhileSomeoneHoldsIt) {
-  MapPool<Counter> pool;
+  MapPool<Counter> pool(2);
   const auto first = pool.at(3, make, move);
   EXPECT_EQ(pool.at(3, make, move), first);
   EXPECT_EQ(pool.size(), 1u);
 }
 
 TEST(MapPool, NeverChangesAMapThatSomeoneHoldsAndUsesOthersAgain) {
-  MapPool<Counter> pool;
+  MapPool<Counter> pool(2);
   auto shown = pool.at(1, make, move);
   for (int step = 2; step < 20; ++step) {
     auto next = pool.at(step, make, move);
@@ -48,7 +48,7 @@ TEST(MapPool, NeverChangesAMapThatSomeoneHoldsAndUsesOthersAgain) {
 }
 
 TEST(MapPool, BringsTheNearestFreeMapToAStep) {
-  MapPool<Counter> pool;
+  MapPool<Counter> pool(2);
   const Counter* far = nullptr;
   const Counter* near = nullptr;
   {
@@ -61,18 +61,31 @@ TEST(MapPool, BringsTheNearestFreeMapToAStep) {
 }
 
 TEST(MapPool, HasRoomWhileAMapIsFreeOrOneMoreIsAllowed) {
-  MapPool<Counter> pool;
-  EXPECT_TRUE(pool.hasRoom(2));
+  MapPool<Counter> pool(2);
+  EXPECT_TRUE(pool.hasRoom());
   auto a = pool.at(1, make, move);
-  EXPECT_TRUE(pool.hasRoom(2));
+  EXPECT_TRUE(pool.hasRoom());
   const auto b = pool.at(2, make, move);
-  EXPECT_FALSE(pool.hasRoom(2));
+  EXPECT_FALSE(pool.hasRoom());
   a.reset();
-  EXPECT_TRUE(pool.hasRoom(2));
+  EXPECT_TRUE(pool.hasRoom());
+}
+
+TEST(MapPool, FreesMapsBeyondThoseItKeepsWhenTheyAreGivenBack) {
+  MapPool<Counter> pool(2);
+  auto a = pool.at(1, make, move), b = pool.at(2, make, move), c = pool.at(3, make, move);
+  EXPECT_EQ(pool.size(), 3u);
+  b.reset();
+  EXPECT_EQ(pool.size(), 2u);
+  a.reset();
+  EXPECT_EQ(pool.size(), 2u);
+  EXPECT_TRUE(pool.hasRoom());
+  EXPECT_TRUE(c->whole() && pool.at(9, make, move)->whole());
+  EXPECT_EQ(pool.size(), 2u);
 }
 
 TEST(MapPool, ThrowsAMapAwayThatCouldNotBeBroughtToItsStep) {
-  MapPool<Counter> pool;
+  MapPool<Counter> pool(2);
   const auto fail = [](Counter& counter, int) {
     counter.content[0] = 77;
     throw std::runtime_error("damaged");
@@ -85,14 +98,32 @@ TEST(MapPool, ThrowsAMapAwayThatCouldNotBeBroughtToItsStep) {
 TEST(MapPool, MapsOutliveThePool) {
   std::shared_ptr<const Counter> kept;
   {
-    MapPool<Counter> pool;
+    MapPool<Counter> pool(2);
     kept = pool.at(5, make, move);
   }
   EXPECT_TRUE(kept->whole());
 }
 
+TEST(MapPool, MapsThatNobodyHoldsGoWithThePool) {
+  struct Witnessed {
+    std::shared_ptr<int> witness;
+    int step = 0;
+  };
+  const auto witness = std::make_shared<int>(0);
+  const auto make_witnessed = [&] { return std::make_unique<Witnessed>(Witnessed{witness}); };
+  std::shared_ptr<const Witnessed> kept;
+  {
+    MapPool<Witnessed> pool(2);
+    kept = pool.at(1, make_witnessed, [](Witnessed&, int) {});
+    pool.at(2, make_witnessed, [](Witnessed&, int) {});
+    EXPECT_EQ(witness.use_count(), 3);
+  }
+  kept.reset();
+  EXPECT_EQ(witness.use_count(), 1);
+}
+
 TEST(MapPool, MapsMayBeDroppedOnOtherThreads) {
-  MapPool<Counter> pool;
+  MapPool<Counter> pool(2);
   std::mt19937 random(1);
   std::vector<std::jthread> readers;
   for (int round = 0; round < 400; ++round) {
