@@ -3,16 +3,16 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "io/text_file.h"
 #include "viewer/inspector_commands.h"
-#include "viewer/inspector_model.h"
+#include "viewer/inspector_documents.h"
 #include "viewer/panels/dialogs.h"
 #include "viewer/panels/file_dialog.h"
 #include "viewer/panels/panel.h"
 #include "viewer/panels/plot.h"
-#include "viewer/panels/view_panel.h"
 #include "viewer/panels/window_frame.h"
 
 namespace vantage {
@@ -22,49 +22,73 @@ struct Inspector::State {
       : gl(gl_),
         ports(std::move(ports_)),
         preferences(std::move(preferences_)),
-        model(ports.wake),
-        view(gl, scene),
-        commands(model, preferences, actions()) {}
+        documents([this](std::string name) {
+          auto made = std::make_unique<Document>(gl, std::move(name), ports.wake);
+          made->model.read_recipe = ports.recipe;
+          return made;
+        }) {
+    commands.emplace(document().model, preferences, actions());
+  }
 
   GlContext& gl;
   InspectorPorts ports;
   Preferences preferences;
   Widgets widgets;
-  CandidateState candidates;
-  Scene scene;
-  InspectorModel model;
-  ViewPanel view;
   CommandPalette palette;
   CheatSheet cheat_sheet;
   FileDialog dialog;
-  std::string after_dialog;  ///< what the chosen file is for: "open", "write config"
+  std::function<void(const std::filesystem::path&)> after_dialog;  ///< what the chosen file is for
   bool close = false;
-  int stage_before = 0;
-  LayerSet stage_layers_before;
-  bool eye_wanted = false;  ///< a recipe places the eye at the next frame
-  std::filesystem::path file_before;
-  InspectorCommands commands;  ///< last: refers to the others
+  Documents documents;
+  /// Changes the documents at the next frame: a command must not take the ground from under itself.
+  std::function<void()> at_next_frame;
+  std::optional<InspectorCommands> commands;  ///< of the active document; last: refers to the others
 
+  Document& document() { return documents.active(); }
   WindowActions actions();
-  PanelContext panelContext();
+  void addFileActions(WindowActions& a);
+  void applyWish();
+  PanelContext panelContext(Document& d);
+  PanelContext panelContext() { return panelContext(document()); }
   void keys();
-  void viewWindow(PanelContext& context, const WindowLayout& l, double pixel_scale);
+  void viewWindows(const WindowLayout& l, double pixel_scale);
+  void viewWindow(Document& d, double left, double right, const WindowLayout& l, double pixel_scale);
+  void viewTitle(Document& d, double left, double top);
   void dialogs(PanelContext& context, const WindowLayout& l);
-  void followModel();
+  void followModel(Document& d);
   void screenshot();
   void writeConfig(const std::filesystem::path& file);
 };
 
+void Inspector::State::applyWish() {
+  if (!at_next_frame) return;
+  commands.reset();
+  std::exchange(at_next_frame, nullptr)();
+  commands.emplace(document().model, preferences, actions());
+}
+
+void Inspector::State::addFileActions(WindowActions& a) {
+  const auto choose = [this](FileDialog::Mode mode, const char* name, auto then) {
+    after_dialog = std::move(then);
+    dialog.open(mode, preferences.folder(), name);
+  };
+  a.open_dialog = [this, choose] {
+    choose(FileDialog::Mode::Open, "", [this](const auto& file) { document().model.open(file); });
+  };
+  a.open_beside = [this, choose] {
+    choose(FileDialog::Mode::Open, "", [this](const auto& file) { documents.openBeside(file); });
+  };
+  a.write_config = [this, choose] {
+    choose(FileDialog::Mode::Save, "config.toml", [this](const auto& file) { writeConfig(file); });
+  };
+  a.close_beside = [this] { at_next_frame = [this] { documents.closeOther(); }; };
+  a.has_beside = [this] { return documents.other() != nullptr; };
+  a.switch_run = [this] { at_next_frame = [this] { documents.swap(); }; };
+}
+
 WindowActions Inspector::State::actions() {
   WindowActions a;
-  a.open_dialog = [this] {
-    after_dialog = "open";
-    dialog.open(FileDialog::Mode::Open, preferences.folder());
-  };
-  a.write_config = [this] {
-    after_dialog = "write config";
-    dialog.open(FileDialog::Mode::Save, preferences.folder(), "config.toml");
-  };
+  addFileActions(a);
   a.screenshot = [this] { screenshot(); };
   a.palette = [this] { palette.open(); };
   a.cheat_sheet = [this] { cheat_sheet.toggle(); };
@@ -75,48 +99,50 @@ WindowActions Inspector::State::actions() {
       run(context);
     };
   };
-  a.reset_eye = with_context([this](PanelContext& c) { view.resetEye(c); });
-  a.look_through_view = with_context([this](PanelContext& c) { view.lookThroughView(c); });
+  a.reset_eye = with_context([this](PanelContext& c) { document().view.resetEye(c); });
+  a.look_through_view = with_context([this](PanelContext& c) { document().view.lookThroughView(c); });
   a.look_along = [this](int side) {
     PanelContext context = panelContext();
-    view.lookAlong(context, side);
+    document().view.lookAlong(context, side);
   };
   a.add_bookmark = [this] {
     auto& bookmarks = preferences.bookmarks;
-    bookmarks.push_back({"camera " + std::to_string(bookmarks.size() + 1), scene.eye()});
+    bookmarks.push_back({"camera " + std::to_string(bookmarks.size() + 1), document().scene.eye()});
   };
   a.bookmark = [this](int n) {
-    if (n < static_cast<int>(preferences.bookmarks.size())) view.setEye(preferences.bookmarks[n].eye);
+    if (n < static_cast<int>(preferences.bookmarks.size()))
+      document().view.setEye(preferences.bookmarks[n].eye);
   };
-  a.measure = [this] { view.toggleMeasuring(); };
-  a.measuring = [this] { return view.measuring(); };
+  a.measure = [this] { document().view.toggleMeasuring(); };
+  a.measuring = [this] { return document().view.measuring(); };
   a.select_view = [this](int by) {
-    candidates.table.show(model.recorded(), model.shown());
-    const auto next = candidates.table.neighbour(model.explainedView(), by);
-    if (next) model.selected_view = next;
+    Document& d = document();
+    d.candidates.table.show(d.model.recorded(), d.model.shown());
+    const auto next = d.candidates.table.neighbour(d.model.explainedView(), by);
+    if (next) d.model.selected_view = next;
   };
-  a.orbit = [this](double left_rad, double up_rad) { view.orbitBy(left_rad, up_rad); };
-  a.zoom = [this](double factor) { view.zoomBy(factor); };
+  a.orbit = [this](double left_rad, double up_rad) { document().view.orbitBy(left_rad, up_rad); };
+  a.zoom = [this](double factor) { document().view.zoomBy(factor); };
   return a;
 }
 
-PanelContext Inspector::State::panelContext() {
-  return {model,
+PanelContext Inspector::State::panelContext(Document& d) {
+  return {d.model,
           preferences,
-          scene,
+          d.scene,
           widgets,
-          candidates,
-          commands.list(),
+          d.candidates,
+          commands->list(),
           themeOf(preferences.theme),
           ports.copy,
-          [this](const Eye& eye) { view.setEye(eye); }};
+          [&d](const Eye& eye) { d.view.setEye(eye); }};
 }
 
 /// Commands by their keys, unless something is being typed.
 void Inspector::State::keys() {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.WantTextInput || dialog.isOpen()) return;
-  for (const Command& command : commands.list().all()) {
+  for (const Command& command : commands->list().all()) {
     const Shortcut& keys = command.keys;
     if (keys.key == Key::None || keys.ctrl != io.KeyCtrl || keys.shift != io.KeyShift) continue;
     // Panels that are walked through with the keys keep the plain ones to themselves.
@@ -128,60 +154,95 @@ void Inspector::State::keys() {
   }
 }
 
-void Inspector::State::viewWindow(PanelContext& context, const WindowLayout& l, double pixel_scale) {
+/// File, step and, in the active one, a line in the accent's colour.
+void Inspector::State::viewTitle(Document& d, double left, double top) {
+  const Theme& theme = themeOf(preferences.theme);
+  const bool is_active = &d == &document();
+  const std::string file = d.model.file().empty() ? "no file" : d.model.file().filename().string();
+  const ImVec2 low{static_cast<float>(left) + 8.0f, static_cast<float>(top) + 8.0f};
+  const ImVec2 size = ImGui::CalcTextSize(file.c_str());
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImVec2 end{low.x + size.x + 12.0f, low.y + size.y + 6.0f};
+  draw.AddRectFilled(low, end, packed(theme.panel, 0.9));
+  draw.AddRect(low, end, packed(is_active ? theme.accent : theme.faint), 0.0f, 0, is_active ? 2.0f : 1.0f);
+  draw.AddText({low.x + 6.0f, low.y + 3.0f}, packed(is_active ? theme.ink : theme.faint), file.c_str());
+  widgets.note(d.view_name + "/title", {low.x, low.y, end.x, end.y, true});
+}
+
+void Inspector::State::viewWindow(Document& d, double left, double right, const WindowLayout& l,
+                                  double pixel_scale) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
-  const bool open = beginPart("3-D view", l.viewLeft(), l.menu, l.viewRight(), l.viewBottom(),
+  const bool open = beginPart(d.view_name.c_str(), left, l.menu, right, l.viewBottom(),
                               ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse |
                                   ImGuiWindowFlags_NoBringToFrontOnFocus);
   ImGui::PopStyleVar();
   if (open) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    view.draw(context, pixel_scale);
-    if (model.shown().empty()) {
+    PanelContext context = panelContext(d);
+    const bool used = d.view.draw(context, documents.viewOf(d, preferences.view), pixel_scale);
+    if (used && &d != &document()) at_next_frame = [this] { documents.swap(); };
+    if (d.model.shown().empty()) {
       const char* hint =
-          model.loading() ? "loading…" : "Open a run with Ctrl+O, or drop a file here. F1 lists all keys.";
-      ImGui::GetWindowDrawList()->AddText({at.x + 24.0f, at.y + 24.0f},
+          d.model.loading() ? "loading…" : "Open a run with Ctrl+O, or drop a file here. F1 lists all keys.";
+      ImGui::GetWindowDrawList()->AddText({at.x + 24.0f, at.y + 36.0f},
                                           packed(themeOf(preferences.theme).faint), hint);
+    }
+    if (documents.other()) viewTitle(d, at.x, at.y);
+    if (d.eye_wanted && !d.model.recorded().empty()) {
+      d.eye_wanted = false;
+      d.view.resetEye(context);
     }
   }
   ImGui::End();
+}
+
+void Inspector::State::viewWindows(const WindowLayout& l, double pixel_scale) {
+  const double width = (l.viewRight() - l.viewLeft()) / static_cast<double>(documents.all().size());
+  double left = l.viewLeft();
+  for (const auto& d : documents.all()) {
+    viewWindow(*d, left, std::min(left + width, l.viewRight()), l, pixel_scale);
+    left += width;
+  }
+  documents.linkEyes(at_next_frame != nullptr);
 }
 
 void Inspector::State::dialogs(PanelContext& context, const WindowLayout& l) {
   palette.draw(context);
   cheat_sheet.draw(context);
   drawNotices(context, l.viewLeft(), l.viewRight(), l.viewBottom());
-  if (const auto file = dialog.draw(widgets)) {
-    if (after_dialog == "open")
-      model.open(*file);
-    else
-      writeConfig(*file);
-  }
+  if (const auto file = dialog.draw(widgets)) after_dialog(*file);
 }
 
 /// A stage that is gone to, by hand or by playing, brings its layers; so do a recipe and the first file.
-void Inspector::State::followModel() {
+void Inspector::State::followModel(Document& d) {
+  InspectorModel& model = d.model;
   if (const auto recipe = model.takeRecipe()) {
     preferences.view = *recipe;
-    eye_wanted = true;
+    d.eye_wanted = true;
   }
-  if (model.file() != file_before) {
-    eye_wanted |= !file_before.empty();
-    file_before = model.file();
-    stage_before = model.place().stage;
+  if (model.file() != d.file_before) {
+    d.eye_wanted |= !d.file_before.empty();
+    d.file_before = model.file();
+    d.place_before = model.place();
     preferences.addRecent(model.file());
+  }
+  if (&d != &document()) {  // who looks at one file is told of both
+    for (const Notice& notice : model.notices())
+      document().model.say(notice.level, model.file().filename().string() + ": " + notice.text);
+    model.dismissNotices();
+    return;
   }
   if (model.recorded().empty()) return;
   LayerSet& shown = preferences.view.layers;
-  const LayerSet& of_stage = model.stages()[model.place().stage].layers;
-  const bool other_stage = model.place().stage != stage_before;
   // The same stage of another planner, or of the closing scan, has other layers.
-  if (shown == LayerSet() || other_stage || shown == stage_layers_before) shown = of_stage;
-  stage_before = model.place().stage;
-  stage_layers_before = of_stage;
+  if (shown == LayerSet() || model.place().stage != d.place_before.stage || shown == d.stage_layers_before)
+    shown = d.stageLayers();
+  d.place_before = model.place();
+  d.stage_layers_before = d.stageLayers();
 }
 
 void Inspector::State::screenshot() {
+  InspectorModel& model = document().model;
   const StepData& shown = model.shown();
   if (shown.empty() || !ports.picture) return;
   const std::string stem =
@@ -190,7 +251,7 @@ void Inspector::State::screenshot() {
   for (int n = 2; std::filesystem::exists(file); ++n) file = stem + "-" + std::to_string(n) + ".png";
   try {
     ViewSettings settings = preferences.view;
-    settings.camera.eye = scene.eye();
+    settings.camera.eye = document().scene.eye();
     writePng(ports.picture(shown.frame(), settings, gl, 1280, 800), file);
     model.say(Notice::Level::Info, "picture saved as " + std::filesystem::absolute(file).string());
   } catch (const std::exception& e) {
@@ -199,6 +260,7 @@ void Inspector::State::screenshot() {
 }
 
 void Inspector::State::writeConfig(const std::filesystem::path& file) {
+  InspectorModel& model = document().model;
   try {
     saveFile(file, model.whatIf().edits().toml());
     model.say(Notice::Level::Info, "parameters written to " + file.string());
@@ -208,37 +270,38 @@ void Inspector::State::writeConfig(const std::filesystem::path& file) {
 }
 
 Inspector::Inspector(GlContext& context, InspectorPorts ports, Preferences preferences)
-    : state_(std::make_unique<State>(context, std::move(ports), std::move(preferences))) {
-  state_->model.read_recipe = state_->ports.recipe;
-}
+    : state_(std::make_unique<State>(context, std::move(ports), std::move(preferences))) {}
 
 Inspector::~Inspector() = default;
 
 void Inspector::open(const std::vector<std::filesystem::path>& files) {
-  for (const auto& file : files) state_->model.open(file);
+  state_->documents.open(files);
 }
 
 bool Inspector::update(double elapsed_s) {
-  const bool changed = state_->model.update(elapsed_s);
-  state_->followModel();
-  const auto due_s = state_->view.nextRender_s();
-  return changed || (due_s && *due_s <= 0.0);
+  State& s = *state_;
+  bool changed = false;
+  for (const auto& d : s.documents.all()) {
+    changed |= d->model.update(elapsed_s);
+    s.followModel(*d);
+    const auto due_s = d->view.nextRender_s();
+    changed |= due_s && *due_s <= 0.0;
+  }
+  s.documents.linkSteps();
+  return changed;
 }
 
 void Inspector::draw(double pixel_scale) {
   State& s = *state_;
+  s.applyWish();
   s.widgets.beginFrame();
   ImGuiIO& io = ImGui::GetIO();
   io.ConfigFlags = s.preferences.keyboard_navigation ? ImGuiConfigFlags_NavEnableKeyboard : 0;
-  PanelContext context = s.panelContext();
   s.keys();
+  PanelContext context = s.panelContext();
   const WindowLayout layout = windowLayout(s.preferences);
   menuBar(context);
-  s.viewWindow(context, layout, pixel_scale);
-  if (s.eye_wanted && !s.model.recorded().empty()) {
-    s.eye_wanted = false;
-    s.view.resetEye(context);
-  }
+  s.viewWindows(layout, pixel_scale);
   leftPart(context, layout);
   rightPart(context, layout);
   timelinePart(context, layout);
@@ -248,7 +311,8 @@ void Inspector::draw(double pixel_scale) {
 }
 
 bool Inspector::idle() const {
-  return state_->model.idle() && !state_->view.nextRender_s();
+  return std::ranges::all_of(state_->documents.all(),
+                             [](const auto& d) { return d->model.idle() && !d->view.nextRender_s(); });
 }
 
 bool Inspector::wantsToClose() const {
@@ -264,21 +328,23 @@ const Widgets& Inspector::widgets() const {
 }
 
 const Commands& Inspector::commands() const {
-  return state_->commands.list();
+  return state_->commands->list();
 }
 
 InspectorModel& Inspector::model() {
-  return state_->model;
+  return state_->document().model;
 }
 
 std::optional<std::string> Inspector::error() const {
-  for (const Notice& notice : state_->model.notices())
+  for (const Notice& notice : state_->document().model.notices())
     if (notice.level == Notice::Level::Error) return notice.text;
   return std::nullopt;
 }
 
 std::uint64_t Inspector::picturesRendered() const {
-  return state_->view.viewport().framesRendered();
+  std::uint64_t count = 0;
+  for (const auto& d : state_->documents.all()) count += d->view.viewport().framesRendered();
+  return count;
 }
 
 }  // namespace vantage

@@ -42,6 +42,13 @@ void InspectorCommands::flag(std::string id, std::string group, std::string titl
 
 void InspectorCommands::addFile() {
   add("file.open", "File", "Open a file…", {keyOf('O'), true}, actions_.open_dialog);
+  add("file.open beside", "File", "Open a file beside this one…", {keyOf('O'), true, true},
+      actions_.open_beside);
+  add("file.close beside", "File", "Close the file that is not active", {keyOf('W'), true},
+      actions_.close_beside)
+      .enabled = actions_.has_beside;
+  add("file.switch", "File", "Go to the other file", {keyOf('X')}, actions_.switch_run).enabled =
+      actions_.has_beside;
   add("file.screenshot", "File", "Save a picture of the view", {keyOf('S'), true}, actions_.screenshot)
       .enabled = [this] { return !model_.shown().empty(); };
   add("file.write config", "File", "Write the changed parameters to a file…", {keyOf('S'), true, true},

@@ -9,9 +9,9 @@ namespace vantage {
 
 /// What commands act on beside model and preferences: parts of the window.
 struct WindowActions {
-  std::function<void()> open_dialog, screenshot, write_config, palette, cheat_sheet, quit, reset_eye,
-      look_through_view, add_bookmark, measure;
-  std::function<bool()> measuring;
+  std::function<void()> open_dialog, open_beside, close_beside, switch_run, screenshot, write_config, palette,
+      cheat_sheet, quit, reset_eye, look_through_view, add_bookmark, measure;
+  std::function<bool()> measuring, has_beside;
   std::function<void(int)> look_along, bookmark;
   std::function<void(int)> select_view;  ///< by so many rows of the table
   std::function<void(double, double)> orbit;

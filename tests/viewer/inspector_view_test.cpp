@@ -111,17 +111,26 @@ TEST_F(InspectorViewTest, TheScanComesWithItsDepthImage) {
   EXPECT_GT(coloursIn(driver, "view/depth"), 20u);
 }
 
-TEST_F(InspectorViewTest, TheLegendIsFoldedAway) {
+TEST_F(InspectorViewTest, TheLegendIsFoldedAwayAndDoesNotStandInTheMousesWay) {
   InspectorDriver driver;
   driver.open(run());
-  const WidgetBox open = *driver.inspector.widgets().find("view/legend");
+  ASSERT_TRUE(driver.ui.has("view/legend"));
+  const Eye before = *driver.inspector.preferences().eye;
+  const WidgetBox legend = *driver.inspector.widgets().find("view/legend");
+  driver.ui.moveMouse(legend.x(), legend.y());
+  driver.ui.pressMouse();
+  driver.ui.frame();
+  driver.ui.moveMouse(legend.x() + 50.0, legend.y());
+  driver.ui.frame();
+  driver.ui.releaseMouse();
+  driver.ui.settle();
+  EXPECT_GT((driver.inspector.preferences().eye->position - before.position).norm(), 0.1);
   driver.ui.click("view/legend/fold");
   driver.ui.settle();
-  const WidgetBox folded = *driver.inspector.widgets().find("view/legend");
-  EXPECT_LT(folded.bottom - folded.top, (open.bottom - open.top) / 3.0);
+  EXPECT_FALSE(driver.ui.has("view/legend"));
   driver.ui.click("view/legend/fold");
   driver.ui.settle();
-  EXPECT_GT(driver.inspector.widgets().find("view/legend")->right, folded.right);
+  EXPECT_TRUE(driver.ui.has("view/legend"));
 }
 
 TEST_F(InspectorViewTest, InASmallWindowLegendAndPicturesDoNotCoverEachOther) {

@@ -66,7 +66,8 @@ int drawWindow(const GlobalOptions& global, const ViewOptions& options,
   return 0;
 }
 
-int openWindow(const GlobalOptions& global, const ViewOptions& options, const std::vector<std::filesystem::path>& files) {
+int openWindow(const GlobalOptions& global, const ViewOptions& options,
+               const std::vector<std::filesystem::path>& files) {
   const std::filesystem::path kept = preferencesPath();
   std::string problem;
   Preferences preferences = loadPreferences(kept, &problem);
@@ -103,7 +104,9 @@ void addView(CLI::App& app, const GlobalOptions& global, Action& action) {
   auto options = std::make_shared<ViewOptions>();
   CLI::App* command = app.add_subcommand(
       "view", "The inspector: a window that shows a run step by step and tries other parameters on it");
-  command->add_option("files", options->files, "Run, map, scene, cloud, recipe or configuration")
+  command
+      ->add_option("files", options->files,
+                   "Run, map, scene, cloud, recipe or configuration; two of them side by side")
       ->type_name("FILE");
   command
       ->add_option("--picture", options->picture,

@@ -11,6 +11,7 @@ namespace {
 
 constexpr float kTextScale = 0.87f;  ///< of the legend, which stands in the way of the scene
 constexpr float kMark_em = 0.8f, kScale_em = 13.0f, kNarrowScale_em = 8.0f;
+constexpr float kGap_px = 8.0f;
 
 /// The sign of a legend entry in a square of the given size.
 void drawMark(ImDrawList& draw, ImVec2 at, float size, const LegendEntry& entry, ImU32 ink) {
@@ -84,11 +85,22 @@ void drawNotes(const LayerNotes& notes, const Theme& theme) {
 }
 
 /// Opens and closes the legend.
-void foldButton(PanelContext& context) {
+void foldButton(PanelContext& context, const std::string& view) {
   bool& shown = context.preferences.show_legend;
-  if (context.widgets.button("view/legend/fold", shown ? "▼ legend" : "▶ legend", true,
+  if (context.widgets.button(view + "/legend/fold", shown ? "▼ legend" : "▶ legend", true,
                              shown ? "hide the legend (G)" : "show what colours and signs mean (G)"))
     shown = !shown;
+}
+
+/// Begins a window on the scene with its lower left corner there; to be closed with ImGui::End().
+void beginOverlay(const std::string& name, float left, float bottom, ImGuiWindowFlags flags) {
+  ImGui::SetNextWindowPos({left, bottom}, ImGuiCond_Always, {0.0f, 1.0f});
+  ImGui::SetNextWindowBgAlpha(0.78f);
+  ImGui::Begin(name.c_str(), nullptr,
+               flags | ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                   ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
+                   ImGuiWindowFlags_NoFocusOnAppearing);
+  ImGui::SetWindowFontScale(kTextScale);
 }
 
 }  // namespace
@@ -114,31 +126,25 @@ void drawColorScale(const ColorScale& scale, float width, const Theme& theme) {
 }
 
 float legendOverlay(PanelContext& context, const ViewArea& area) {
-  constexpr float kGap_px = 8.0f, kLargestShare = 0.45f, kTallestShare = 0.7f;
+  constexpr float kLargestShare = 0.45f;
   std::vector<const LayerNotes*> notes = context.scene.shownNotes();
   std::erase_if(notes, [](const LayerNotes* n) { return n->legend.empty() && !n->scale; });
   if (notes.empty()) return 0.0f;
-  const bool shown = context.preferences.show_legend;
-  ImGui::SetNextWindowPos({area.left + kGap_px, area.bottom - kGap_px}, ImGuiCond_Always, {0.0f, 1.0f});
-  const float width = std::min(widthOf(notes), kLargestShare * area.width());
-  if (shown) ImGui::SetNextWindowSize({width, 0.0f});
-  ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {area.width(), kTallestShare * area.height()});
-  ImGui::SetNextWindowBgAlpha(0.78f);
-  constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                                      ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
-                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
-                                      ImGuiWindowFlags_NoFocusOnAppearing;
-  if (ImGui::Begin("legend", nullptr, kFlags | (shown ? 0 : ImGuiWindowFlags_AlwaysAutoResize))) {
-    ImGui::SetWindowFontScale(kTextScale);
-    foldButton(context);
-    if (shown)
-      for (const LayerNotes* layer : notes) drawNotes(*layer, context.theme);
-    const ImVec2 at = ImGui::GetWindowPos(), extent = ImGui::GetWindowSize();
-    context.widgets.note("view/legend", {at.x, at.y, at.x + extent.x, at.y + extent.y, true});
-  }
-  const float used = ImGui::GetWindowWidth();
+  const float left = area.left + kGap_px, bottom = area.bottom - kGap_px;
+  beginOverlay(area.name + " fold", left, bottom, 0);
+  foldButton(context, area.name);
+  const ImVec2 button = ImGui::GetWindowSize();
   ImGui::End();
-  return used + kGap_px;
+  if (!context.preferences.show_legend) return button.x + kGap_px;
+  const float width = std::min(widthOf(notes), kLargestShare * area.width());
+  ImGui::SetNextWindowSize({width, 0.0f});
+  ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {width, std::max(1.0f, bottom - button.y - area.top)});
+  beginOverlay(area.name + " legend", left, bottom - button.y, ImGuiWindowFlags_NoInputs);
+  for (const LayerNotes* layer : notes) drawNotes(*layer, context.theme);
+  const ImVec2 at = ImGui::GetWindowPos(), extent = ImGui::GetWindowSize();
+  context.widgets.note(area.name + "/legend", {at.x, at.y, at.x + extent.x, at.y + extent.y, true});
+  ImGui::End();
+  return std::max(width, button.x) + kGap_px;
 }
 
 }  // namespace vantage

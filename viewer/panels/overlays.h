@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "viewer/panels/panel.h"
 #include "viewer/viewport.h"
@@ -9,6 +10,7 @@ namespace vantage {
 
 /// Where the 3-D view is in the window, its own units.
 struct ViewArea {
+  std::string name;  ///< of its widgets
   float left = 0.0f, top = 0.0f, right = 0.0f, bottom = 0.0f;
   float width() const { return right - left; }
   float height() const { return bottom - top; }

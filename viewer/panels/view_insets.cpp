@@ -72,7 +72,7 @@ class Column {
       ImGui::SetCursorScreenPos({low.x + 8.0f, high.y + text + 7.0f});
       drawColorScale(*scale, width_ - 16.0f, context_.theme);
     }
-    context_.widgets.note(name, {low.x, low.y, high.x, high.y + below, true});
+    context_.widgets.note(area_.name + "/" + name, {low.x, low.y, high.x, high.y + below, true});
     top_ = high.y + below + kGap_px;
   }
 
@@ -113,7 +113,7 @@ void ViewInsets::State::drawView(PanelContext& context, Viewport& viewport, Colu
     view.set(viewport.picture(renderers, width_px, static_cast<int>(std::lround(height * pixel_scale))),
              revision, *id, width_px);
   }
-  column.add("view/inset", "view " + std::to_string(*id) + ": predicted to see", view, height, nullptr,
+  column.add("inset", "view " + std::to_string(*id) + ": predicted to see", view, height, nullptr,
              context.theme.chosen);
 }
 
@@ -127,7 +127,7 @@ void ViewInsets::State::drawLayers(PanelContext& context, Column& column, std::u
     const auto map = static_cast<std::uint64_t>(inset.scale.map);
     if (!layer.isOf(revision, map, inset.image.width))
       layer.set(inset.image, revision, map, inset.image.width);
-    column.add("view/depth", inset.title, layer, height, &inset.scale, context.theme.faint);
+    column.add("depth", inset.title, layer, height, &inset.scale, context.theme.faint);
     return;
   }
 }

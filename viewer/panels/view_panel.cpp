@@ -25,23 +25,23 @@ ImTextureID textureId(unsigned handle) {
 
 }  // namespace
 
-ViewPanel::ViewPanel(GlContext& context, Scene& scene) : scene_(scene), viewport_(context, scene) {}
+ViewPanel::ViewPanel(GlContext& context, Scene& scene, std::string name)
+    : name_(std::move(name)), scene_(scene), viewport_(context, scene) {}
 
 ViewPanel::~ViewPanel() = default;
 
-bool ViewPanel::update(PanelContext& context) {
+void ViewPanel::update(PanelContext& context, ViewSettings wanted) {
   const InspectorModel& model = context.model;
   const StepData& shown = model.shown();
   if (shown.empty()) {
     has_frame_ = false;
-    return false;
+    return;
   }
-  ViewSettings wanted = context.preferences.view;
   if (const auto view = model.explainedView()) wanted.style.view_id = static_cast<int>(*view);
   const bool new_data = !has_frame_ || revision_ != model.revision() + model.whatIf().revision();
   const double scale = pixel_scale_ * context.preferences.font_scale;
   const bool other_look = arranged_paper_ != context.theme.paper || scale != arranged_scale_;
-  if (!new_data && !other_look && wanted == arranged_) return false;
+  if (!new_data && !other_look && wanted == arranged_) return;
   if (new_data || other_look) ++insets_revision_;
   if (new_data) scene_.setFrame(shown.frame());
   revision_ = model.revision() + model.whatIf().revision();
@@ -63,7 +63,6 @@ bool ViewPanel::update(PanelContext& context) {
       resetEye(context);
   }
   viewport_.requestRender();
-  return true;
 }
 
 void ViewPanel::resetEye(PanelContext& context) {
@@ -86,6 +85,12 @@ void ViewPanel::setEye(const Eye& eye) {
   scene_.setEye(eye);
   eye_placed_ = true;
   viewport_.requestRender();
+}
+
+void ViewPanel::follow(const ViewPanel& other) {
+  if (!has_frame_) return;
+  setEye(other.scene_.eye());
+  viewport_.setMoving(other.viewport_.dragging() || !other.viewport_.settled());
 }
 
 void ViewPanel::lookThroughView(PanelContext& context) {
@@ -115,13 +120,13 @@ std::optional<double> ViewPanel::nextRender_s() const {
   return has_frame_ ? viewport_.nextRender_s() : std::nullopt;
 }
 
-void ViewPanel::draw(PanelContext& context, double pixel_scale) {
+bool ViewPanel::draw(PanelContext& context, const ViewSettings& settings, double pixel_scale) {
   pixel_scale_ = pixel_scale;
   const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
   const ImVec2 size{std::max(32.0f, room.x), std::max(32.0f, room.y)};
   viewport_.resize(static_cast<int>(std::lround(size.x * pixel_scale)),
                    static_cast<int>(std::lround(size.y * pixel_scale)));
-  update(context);
+  update(context, settings);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 end{at.x + size.x, at.y + size.y};
   if (has_frame_) {
@@ -133,17 +138,19 @@ void ViewPanel::draw(PanelContext& context, double pixel_scale) {
   ImGui::InvisibleButton("view", size,
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                              ImGuiButtonFlags_MouseButtonMiddle);
-  context.widgets.note("view");
+  context.widgets.note(name_);
+  const bool used = ImGui::IsItemActive();
   if (has_frame_) {
     mouse(context, at.x, at.y);
     overlays(context, at.x, at.y);
-    const ViewArea area{at.x, at.y, end.x, end.y};
+    const ViewArea area{name_, at.x, at.y, end.x, end.y};
     const float legend = legendOverlay(context, area);
     insets_.draw(context, viewport_, area, area.width() - legend, pixel_scale_, insets_revision_);
   }
   if (!problem_.empty())
     draw.AddText({at.x + 12.0f, end.y - 2 * ImGui::GetFontSize()}, packed(context.theme.warning),
                  problem_.c_str());
+  return used;
 }
 
 void ViewPanel::mouse(PanelContext& context, double left, double top) {
@@ -185,7 +192,7 @@ void ViewPanel::hover(PanelContext& context, const Eigen::Vector2d& at_px) {
   ImGui::BeginTooltip();
   ImGui::TextUnformatted(text.c_str());
   ImGui::EndTooltip();
-  context.widgets.note("view/hover");
+  context.widgets.note(name_ + "/hover");
 }
 
 void ViewPanel::click(PanelContext& context) {

@@ -15,13 +15,12 @@ namespace vantage {
 /// explained frustum as an inset.
 class ViewPanel {
  public:
-  ViewPanel(GlContext& context, Scene& scene);
+  /// \param name of its widgets, "view" gives "view", "view/legend" and so on
+  ViewPanel(GlContext& context, Scene& scene, std::string name);
   ~ViewPanel();
 
-  /// Brings the scene to model and settings. True if a picture will be drawn.
-  bool update(PanelContext& context);
-  /// Fills what is left of the window that is open.
-  void draw(PanelContext& context, double pixel_scale);
+  /// Fills what is left of the window that is open. True if it was clicked or dragged in.
+  bool draw(PanelContext& context, const ViewSettings& settings, double pixel_scale);
   /// Seconds until the view wants to be drawn again; nothing = not before the next change.
   std::optional<double> nextRender_s() const;
 
@@ -31,6 +30,8 @@ class ViewPanel {
   /// Looks along an axis, z upward: 0 from the front (-y), 1 from the right (+x), 2 from above.
   void lookAlong(PanelContext& context, int side);
   void setEye(const Eye& eye);
+  /// Looks from where another view of the same scene is looked at from, which may be under the mouse.
+  void follow(const ViewPanel& other);
   /// Two clicks measure a distance while it is on.
   bool measuring() const { return measuring_; }
   void toggleMeasuring();
@@ -42,6 +43,8 @@ class ViewPanel {
   void zoomBy(double factor);
 
  private:
+  /// Brings the scene to model and settings.
+  void update(PanelContext& context, ViewSettings wanted);
   /// Draws in the view's own pixels over the picture.
   struct Overlay;
 
@@ -51,6 +54,7 @@ class ViewPanel {
   void lookAt(const Eigen::Vector3d& p_world);
   void overlays(PanelContext& context, double left, double top);
 
+  std::string name_;
   Scene& scene_;
   Viewport viewport_;
   double pixel_scale_ = 1.0;
