@@ -155,6 +155,14 @@ std::string remembered(const TemporaryFolder& folder) {
   return std::filesystem::exists(file) ? test::readFile(file) : "";
 }
 
+TEST(View, ADisplayWithoutOpenGl32IsOneLine) {
+  const TemporaryFolder folder;
+  const ProcessResult result = underXvfb(folder, "export MESA_GL_VERSION_OVERRIDE=2.1", "", "wait $window");
+  EXPECT_EQ(result.code, 3) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("OpenGL 3.2"));
+  EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+}
+
 TEST(View, OpensARealWindowAndRemembersIt) {
   const TemporaryFolder folder;
   testing::recordRun(testing::ballScene(), {"exploration.steps=1"}, folder / "run.vantage");
@@ -166,17 +174,22 @@ wait $window)");
   EXPECT_THAT(remembered(folder), HasSubstr("run.vantage"));
 }
 
-TEST(View, AFileDroppedOnARealWindowIsOpenedAndASignalClosesItLikeAClick) {
+TEST(View, ARealWindowTakesADroppedFileSavesAPictureAndClosesAtASignal) {
   const TemporaryFolder folder;
   testing::recordRun(testing::ballScene(), {"exploration.steps=1"}, folder / "dropped.vantage");
   const ProcessResult result = underXvfb(folder, X_CLIENT " dpi 192", "", R"(
 for i in $(seq 100); do )" X_CLIENT R"( drop dropped.vantage 2>drop.log && break; sleep 0.2; done
 for i in $(seq 40); do sleep 0.25; cp Xvfb_screen0 screen; done
+)" X_CLIENT R"( ctrl s
+for i in $(seq 100); do [ -s dropped-step1-view.png ] && break; sleep 0.2; done
 kill -TERM $window
 wait $window)");
   EXPECT_EQ(result.code, 0) << result.err << test::readFile(folder / "drop.log");
   EXPECT_GT(colorsOnScreen(folder / "screen"), 300u) << "the window shows no scene";
   EXPECT_THAT(remembered(folder), HasSubstr("dropped.vantage"));
+  ASSERT_TRUE(std::filesystem::exists(folder / "dropped-step1-view.png"));
+  EXPECT_GT(std::filesystem::file_size(folder / "dropped-step1-view.png"), 20000u)
+      << "a picture with its legend";
   // The monitor has half as many points as pixels: the next window is not larger than this one was.
   EXPECT_THAT(remembered(folder), HasSubstr("width = 640"));
 }

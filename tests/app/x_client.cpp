@@ -1,8 +1,9 @@
 // What a desktop does to a window, for tests under a bare X server: `x_client dpi N` tells programs that are
 // started later how fine the display is; `x_client drop FILE...` drags files onto the window that takes them
-// (XDND).
+// (XDND); `x_client ctrl KEY` presses a key with Ctrl in that window.
 #include <X11/Xatom.h>
 #include <X11/Xlib.h>
+#include <X11/keysym.h>
 
 #include <chrono>
 #include <cstdio>
@@ -19,6 +20,7 @@ namespace {
 constexpr long kXdndVersion = 5;
 constexpr auto kPatience = std::chrono::seconds(10);
 
+/// The window that says that it takes files; none: None.
 Window findAware(Display* display, Window window, Atom aware) {
   Atom type = None;
   int format = 0;
@@ -113,6 +115,28 @@ class Drag {
   std::string uris_;
 };
 
+void pressWithCtrl(Display* display, const std::string& key) {
+  const Window target =
+      findAware(display, DefaultRootWindow(display), XInternAtom(display, "XdndAware", False));
+  if (target == None) throw std::runtime_error("there is no window");
+  const auto send = [&](KeySym symbol, int type, unsigned state) {
+    XEvent event = {};
+    event.xkey.type = type;
+    event.xkey.window = target;
+    event.xkey.root = DefaultRootWindow(display);
+    event.xkey.same_screen = True;
+    event.xkey.state = state;
+    event.xkey.keycode = XKeysymToKeycode(display, symbol);
+    XSendEvent(display, target, True, type == KeyPress ? KeyPressMask : KeyReleaseMask, &event);
+    XSync(display, False);
+  };
+  const KeySym symbol = XStringToKeysym(key.c_str());
+  send(XK_Control_L, KeyPress, 0);
+  send(symbol, KeyPress, ControlMask);
+  send(symbol, KeyRelease, ControlMask);
+  send(XK_Control_L, KeyRelease, ControlMask);
+}
+
 void setDpi(Display* display, const std::string& dpi) {
   const std::string resources = "Xft.dpi:\t" + dpi + "\n";
   XChangeProperty(display, DefaultRootWindow(display), XA_RESOURCE_MANAGER, XA_STRING, 8, PropModeReplace,
@@ -124,8 +148,8 @@ void setDpi(Display* display, const std::string& dpi) {
 
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
-  if (words.size() < 2 || (words[0] != "dpi" && words[0] != "drop")) {
-    std::fputs("usage: x_client dpi N | drop FILE...\n", stderr);
+  if (words.size() < 2 || (words[0] != "dpi" && words[0] != "drop" && words[0] != "ctrl")) {
+    std::fputs("usage: x_client dpi N | drop FILE... | ctrl KEY\n", stderr);
     return 1;
   }
   Display* display = XOpenDisplay(nullptr);
@@ -136,6 +160,8 @@ int main(int argc, char** argv) {
   try {
     if (words[0] == "dpi")
       setDpi(display, words[1]);
+    else if (words[0] == "ctrl")
+      pressWithCtrl(display, words[1]);
     else
       Drag(display, {words.begin() + 1, words.end()}).drop();
   } catch (const std::exception& error) {

@@ -16,6 +16,7 @@ namespace vantage::testing {
 struct InspectorDriver {
   EglContext context;
   std::string clipboard;
+  int pictures_taken = 0;  ///< by the port
   Inspector inspector;
   OffscreenUi ui;
 
@@ -46,6 +47,11 @@ struct InspectorDriver {
   InspectorPorts ports() {
     InspectorPorts ports;
     ports.copy = [this](const std::string& text) { clipboard = text; };
+    ports.picture = [this](const SceneFrame&, const ViewSettings& view, GlContext&, int width, int height) {
+      ++pictures_taken;
+      view.validate();
+      return RgbImage(width, height);
+    };
     return ports;
   }
 };

@@ -163,6 +163,23 @@ TEST_F(InspectorViewTest, TheTitleNeverRunsOffTheWindow) {
   }
 }
 
+TEST_F(InspectorViewTest, TheButtonSavesAPictureAndSaysWhere) {
+  InspectorDriver driver;
+  driver.ui.settle();
+  EXPECT_FALSE(driver.inspector.widgets().find("status/save picture")->enabled) << "there is nothing to save";
+  driver.open(run());
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder_->path());
+  driver.ui.click("status/save picture");
+  driver.ui.click("status/save picture");
+  driver.ui.settle();
+  std::filesystem::current_path(before);
+  EXPECT_EQ(driver.pictures_taken, 2);
+  EXPECT_TRUE(std::filesystem::exists(*folder_ / "ball-step1-view.png"));
+  EXPECT_TRUE(std::filesystem::exists(*folder_ / "ball-step1-view-2.png")) << "the first one is kept";
+  EXPECT_THAT(driver.notices(), HasSubstr("ball-step1-view-2.png"));
+}
+
 TEST_F(InspectorViewTest, ARunThatIsWholeAndThenDeletedIsTold) {
   const std::string copy = *folder_ / "copy.vantage";
   std::filesystem::copy_file(run(), copy, std::filesystem::copy_options::overwrite_existing);
@@ -174,6 +191,20 @@ TEST_F(InspectorViewTest, ARunThatIsWholeAndThenDeletedIsTold) {
     driver.ui.settle();
   }
   EXPECT_THAT(driver.notices(), HasSubstr("copy.vantage is gone"));
+  EXPECT_FALSE(driver.model().shown().empty());
+}
+
+TEST_F(InspectorViewTest, ARunFromANewerVersionIsToldAndWhatIsOpenStays) {
+  const std::string newer = *folder_ / "newer.vantage";
+  std::string bytes = test::readFile(run());
+  constexpr std::size_t kUserVersion = 60;  // in the header of an SQLite file, four bytes, high ones first
+  bytes.replace(kUserVersion, 4, std::string("\0\0\0\x63", 4));
+  test::writeFile(newer, bytes);
+  InspectorDriver driver;
+  driver.open(run());
+  driver.open(newer);
+  EXPECT_THAT(driver.notices(), HasSubstr("newer.vantage: has version 99"));
+  EXPECT_EQ(driver.model().file().filename(), "ball.vantage");
   EXPECT_FALSE(driver.model().shown().empty());
 }
 

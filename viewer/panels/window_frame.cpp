@@ -54,6 +54,21 @@ std::string workText(const InspectorModel& model) {
   return text.empty() ? "ready" : text;
 }
 
+/// At the right end of the line.
+void pictureButton(PanelContext& context, double right) {
+  const Command* save = context.commands.find("file.screenshot");
+  if (!save) return;
+  const char* label = "save picture";
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float width = ImGui::CalcTextSize(label).x + 2 * style.FramePadding.x + 8.0f;
+  ImGui::SameLine(static_cast<float>(right) - width);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {style.FramePadding.x, 0.0f});
+  if (context.widgets.button("status/save picture", label, save->enabled(),
+                             save->title + "  (" + textOf(save->keys) + ")"))
+    save->run();
+  ImGui::PopStyleVar();
+}
+
 }  // namespace
 
 WindowLayout windowLayout(const Preferences& preferences) {
@@ -136,6 +151,7 @@ void statusBar(PanelContext& context, const WindowLayout& l) {
   if (open) {
     ImGui::TextDisabled("%s", workText(context.model).c_str());
     context.widgets.note("status");
+    pictureButton(context, l.width);
   }
   ImGui::End();
 }
