@@ -59,7 +59,11 @@ void Documents::openBeside(const std::filesystem::path& file) {
 }
 
 void Documents::swap() {
-  if (other()) active_ = 1 - active_;
+  if (!other()) return;
+  Player& player = active().model.player;
+  other()->model.player = player;  // what plays goes on, led by the other one
+  player.pause();
+  active_ = 1 - active_;
 }
 
 void Documents::closeOther() {

@@ -50,7 +50,7 @@ class Documents {
   /// out.
   void open(const std::vector<std::filesystem::path>& files);
   void openBeside(const std::filesystem::path& file);
-  /// Makes the other one active.
+  /// Makes the other one active; what plays goes on playing.
   void swap();
   void closeOther();
 

@@ -96,6 +96,21 @@ TEST_F(SideBySide, BothShowTheSameStepAndStageAsFarAsTheyHaveThem) {
   EXPECT_EQ(driver.model().stages()[driver.model().place().stage].name, "fused");
 }
 
+TEST_F(SideBySide, WhatPlaysGoesOnWhenTheOtherOneBecomesActive) {
+  InspectorDriver driver;
+  openBoth(driver);
+  driver.ui.click("timeline/by stage");
+  driver.ui.click("timeline/play");
+  driver.ui.press({keyOf('X')});
+  driver.ui.frame();
+  EXPECT_EQ(fileOf(driver), "right.vantage");
+  EXPECT_TRUE(driver.model().player.playing());
+  EXPECT_TRUE(driver.model().player.by_stage);
+  for (int i = 0; i < 200 && driver.model().player.playing(); ++i) driver.ui.frame(0.5);
+  driver.ui.settle();
+  EXPECT_EQ(driver.model().place().step, static_cast<int>(driver.model().steps().size()) - 1);
+}
+
 TEST_F(SideBySide, TheOtherFileIsClosedAndTheWholeRoomIsUsedAgain) {
   InspectorDriver driver;
   driver.open(left());
