@@ -35,6 +35,10 @@ std::optional<std::uint32_t> groupOf(const SceneFrame& frame, std::uint32_t id) 
   return std::nullopt;
 }
 
+bool isScored(const ExplainedView& view) {
+  return view.frame.record.search->segments[*view.group].scored;
+}
+
 }  // namespace
 
 Explanation explain(const SceneFrame& shown, std::uint32_t id) {
@@ -60,6 +64,7 @@ Explanation explain(const SceneFrame& shown, const std::vector<CandidateRow>& ro
   if (view.row) result.row = *view.row;
   if (view.other) result.other = view.other->id;
   const bool contour = shown.record.search && !shown.record.utilities;
+  result.missing = view.row ? "not computed" : isScored(view) ? "not scored" : "not scored yet";
   result.sentence = contour ? contourReason(view) : utilityReason(view);
   result.factors = contour ? contourFactors(view) : utilityFactors(view);
   return result;

@@ -21,7 +21,7 @@ struct FactorReading {
 struct ViewFactor {
   std::string name;                         ///< "gain"
   std::string about;                        ///< what it means
-  std::optional<FactorReading> view = {};   ///< empty = never computed
+  std::optional<FactorReading> view = {};   ///< empty = see Explanation::missing
   std::optional<FactorReading> other = {};  ///< of Explanation::other
   std::optional<double> limit_share = {};   ///< where on the bar's scale the threshold is
   std::string limit = {};                   ///< "at least 700 rays"; empty without one
@@ -38,6 +38,7 @@ struct Explanation {
   bool is_winner = false;                ///< it is the chosen view
   std::string sentence = {};             ///< in plain words; never empty
   std::vector<ViewFactor> factors = {};  ///< empty for what is no candidate
+  std::string missing = {};              ///< why a factor of the view has no value: "not scored yet"
 };
 
 /// Explains a candidate of the step that is shown.

@@ -74,8 +74,11 @@ std::string roundnessText(const Segment& s) {
   return fixed(s.roundness) + " (" + lengthText(s.extent_m[2]) + " / " + lengthText(s.extent_m[0]) + ")";
 }
 
-void addSegmentFactors(const ExplainedView& view, std::vector<ViewFactor>& factors) {
+/// What is known of a segment is known before its views are scored.
+void addSegmentFactors(ExplainedView view, std::vector<ViewFactor>& factors) {
   const StepRecord& record = view.frame.record;
+  const CandidateRow unscored{.group = view.group.value_or(0), .verdict = ViewVerdict::Pending};
+  if (!view.row && view.group) view.row = &unscored;
   const auto ofSegment = [&](auto value) {
     return [&record, value](const CandidateRow& row) -> std::optional<double> {
       const Segment* segment = segmentOf(record, row);

@@ -159,6 +159,9 @@ void InspectorCommands::addWhatIf() {
   add("what-if.cancel", "What-if", "Cancel what runs in the background", {Key::Period, true}, [this] {
     model_.whatIf().cancel();
   }).enabled = [this] { return model_.whatIf().busy(); };
+  add("what-if.run again", "What-if", "Run again what was cancelled", {Key::Period, true, true}, [this] {
+    model_.whatIf().runAgain();
+  }).enabled = [this] { return model_.whatIf().cancelled(); };
   add("selection.next", "What-if", "Select the next view of the table", {Key::Down},
       [this] { actions_.select_view(+1); });
   add("selection.previous", "What-if", "Select the view before it", {Key::Up},

@@ -26,6 +26,11 @@ Parameter slider(std::string key, std::string symbol, std::string label, std::st
   return p;
 }
 
+Parameter inUnit(std::string unit, Parameter p) {
+  p.unit = std::move(unit);
+  return p;
+}
+
 Parameter logarithmic(Parameter p) {
   p.logarithmic = true;
   return p;
@@ -78,7 +83,7 @@ std::vector<ParameterGroup> contourParameters(bool segments) {
           slider("segmentation.min_segment_supervoxels", "", "smallest segment, supervoxels", "", 1.0, 0, 30,
                  1)}});
   groups.push_back({"Views",
-                    {plain("views.distances_m", "distances, m", 0.8),
+                    {inUnit("m", plain("views.distances_m", "distances", 0.8)),
                      slider("views.tilt_deg", "", "tilt of directions", "deg", 1.0, 0, 45, 0.5, 15),
                      slider("views.rolls", "", "rolls", "", 1.0, 1, 16, 1, 8),
                      slider("gain.reduction", "", "rays: 1/n of the resolution", "", 1.0, 1, 16, 1),
@@ -89,7 +94,7 @@ std::vector<ParameterGroup> contourParameters(bool segments) {
 std::vector<ParameterGroup> octreeParameters(bool coarse) {
   ParameterGroup thresholds{
       "Thresholds (re-rank at once)",
-      {slider("utility.min_occupied", "h_oc", "known surface in view, at least", "rays", 1.0, 0, 10000, 10),
+      {slider("utility.min_occupied", "h_oc", "known surface, at least", "rays", 1.0, 0, 10000, 10),
        slider("utility.min_overlap", "", "or its share", "%", 0.01, 0, 1, 0.01),
        slider("utility.stop_gain", "h_stop", "unknown in view, at least", "rays", 1.0, 0, 10000, 10),
        slider("utility.rotation_weight_m_per_rad", "w", "a radian of turning is", "m", 1.0, 0, 5, 0.05)}};

@@ -1,12 +1,8 @@
 #include "viewer/setting_edits.h"
 
-#include <array>
-#include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
-#include "io/text_file.h"
-#include "viewer/parameters.h"
+#include "viewer/parameter_text.h"
 
 namespace vantage {
 namespace {
@@ -17,55 +13,14 @@ const config::Field& fieldOf(const std::string& key) {
   return *field;
 }
 
-bool isNumber(const config::Field& field) {
-  return field.kind == config::Kind::Number || field.kind == config::Kind::Integer;
-}
-
-/// Shortest text of a number that has at most nine digits after scaling.
-std::string decimal(double value) {
-  std::array<char, 40> text;
-  std::snprintf(text.data(), text.size(), "%.9g", value);
-  return text.data();
-}
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-/// What a person typed as the value of a field. \throws std::invalid_argument
-config::Value parsed(const config::Field& field, const std::string& typed) {
-  const Parameter* parameter = parameterOf(field.key);
-  const double per_unit = parameter ? parameter->per_unit : 1.0;
-  std::string text = trimmed(typed);
-  if (parameter && !parameter->unit.empty() && text.ends_with(parameter->unit))
-    text = trimmed(text.substr(0, text.size() - parameter->unit.size()));
-  const auto number = parseNumber(text);
-  const std::string unit = parameter && !parameter->unit.empty() ? " " + parameter->unit : "";
-  if (!number)
-    throw std::invalid_argument("'" + typed + "' is not a number; allowed: " + decimal(field.low / per_unit) +
-                                " .. " + decimal(field.high / per_unit) + unit);
-  const double value = *number * per_unit;
-  if (!(value >= field.low && value <= field.high))
-    throw std::invalid_argument(text + unit + " is out of range; allowed: " + decimal(field.low / per_unit) +
-                                " .. " + decimal(field.high / per_unit) + unit);
-  if (field.kind != config::Kind::Integer) return value;
-  if (value != std::floor(value)) throw std::invalid_argument(text + " is not a whole number");
-  return static_cast<std::int64_t>(value);
+/// Typed as numbers; others are typed as TOML values.
+bool holdsNumbers(const config::Field& field) {
+  using config::Kind;
+  return field.kind == Kind::Number || field.kind == Kind::Integer || field.kind == Kind::Numbers ||
+         field.kind == Kind::Integers;
 }
 
 }  // namespace
-
-std::string shownText(const std::string& key, const config::Value& value) {
-  const config::Field& field = fieldOf(key);
-  const Parameter* parameter = parameterOf(key);
-  const double per_unit = parameter ? parameter->per_unit : 1.0;
-  if (const auto* number = std::get_if<double>(&value)) return decimal(*number / per_unit);
-  if (const auto* integer = std::get_if<std::int64_t>(&value)) return std::to_string(*integer);
-  if (const auto* text = std::get_if<std::string>(&value)) return *text;
-  return config::toToml(value, field.kind);
-}
 
 void SettingEdits::setRecorded(Settings settings) {
   recorded_ = wanted_ = std::move(settings);
@@ -100,7 +55,7 @@ bool SettingEdits::apply(const std::string& key, const config::Value& value) {
     field.set(tried, config::checked(field, value));
     tried.validate();
   } catch (const std::exception& e) {
-    errors_[key] = e.what();
+    errors_[key] = refusalText(key, e.what());
     return false;
   }
   wanted_ = std::move(tried);
@@ -130,9 +85,9 @@ bool SettingEdits::setText(const std::string& key, const std::string& text) {
   const config::Field& field = fieldOf(key);
   finishEdit();
   bool taken = false;
-  if (isNumber(field)) {
+  if (holdsNumbers(field)) {
     try {
-      taken = set(key, parsed(field, text));
+      taken = set(key, typedValue(field, text));
     } catch (const std::invalid_argument& e) {
       errors_[key] = e.what();
     }

@@ -25,7 +25,7 @@ class SettingEdits {
   /// Takes over a value; true if it changed something. Changes of one key that follow each other are one for
   /// undo() until finishEdit(). A refused value sets error().
   bool set(const std::string& key, const config::Value& value);
-  /// The same from what a person typed: a number in the unit that is shown (Parameter), else a TOML value.
+  /// The same from what a person typed: see typedValue(), or a TOML value.
   bool setText(const std::string& key, const std::string& text);
   void finishEdit() { open_ = false; }
   bool reset(const std::string& key);
@@ -57,8 +57,5 @@ class SettingEdits {
   bool open_ = false;  ///< the last edit goes on
   std::map<std::string, std::string> errors_;
 };
-
-/// A value as its field shows it: in the parameter's unit, without the unit.
-std::string shownText(const std::string& key, const config::Value& value);
 
 }  // namespace vantage

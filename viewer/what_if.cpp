@@ -67,7 +67,8 @@ void WhatIf::clear() {
 
 /// Lets go of all that was made for the step, its map too, which the next step may need the room of.
 void WhatIf::leaveStep() {
-  cancel();
+  suspend();
+  stopped_ = false;
   ++step_;
   context_.reset();
   recorded_step_.reset();
@@ -91,7 +92,7 @@ void WhatIf::setStep(const StepData& recorded, std::shared_ptr<const WhatIfConte
   recorded_groups_ = groups_ = groupsOf(*base_, context_->planner);
   state_ = WhatIfState::Recorded;
   update();
-  scorePending();
+  if (state_ != WhatIfState::Recorded) scorePending();
 }
 
 std::size_t WhatIf::groups() const {
@@ -115,9 +116,11 @@ void WhatIf::showRecorded() {
 
 void WhatIf::update() {
   if (!ready()) return;
+  stopped_ = false;
   failure_.clear();
   if (!edits_.anyChanged()) {
     showRecorded();
+    scorePending();
     return;
   }
   if (stagesToRedo(*recorded_step_, edits_.wanted(), context_->planner).empty() && base_ != recorded_step_) {
@@ -217,14 +220,20 @@ void WhatIf::suspend() {
 }
 
 bool WhatIf::busy() const {
+  if (stopped_) return false;
   return state_ == WhatIfState::Rerunning || state_ == WhatIfState::Checking ||
          state_ == WhatIfState::Scoring || pending_groups_ > 0;
 }
 
 void WhatIf::cancel() {
+  stopped_ = stopped_ || busy();
   suspend();
   if (state_ == WhatIfState::Rerunning || state_ == WhatIfState::Checking || state_ == WhatIfState::Scoring)
-    fail("cancelled: what is shown belongs to earlier parameters");
+    fail("cancelled; earlier parameters are shown");
+}
+
+void WhatIf::runAgain() {
+  if (cancelled()) update();
 }
 
 bool WhatIf::set(const std::string& key, const config::Value& value) {

@@ -62,8 +62,12 @@ class WhatIf {
   std::size_t groups() const;
   /// Seconds that the last re-ranking took.
   double rerankSeconds() const { return rerank_s_; }
-  /// Cancels what runs in the background; what is shown stays.
+  /// Cancels what runs in the background; what is shown stays until something is changed or run again.
   void cancel();
+  /// It was cancelled, or failed, and nothing was changed since.
+  bool cancelled() const { return stopped_ || state_ == WhatIfState::Failed; }
+  /// Does what was cancelled or failed.
+  void runAgain();
   /// The same without a word: another step is about to come.
   void suspend();
   /// There is something to cancel.
@@ -86,6 +90,7 @@ class WhatIf {
   BackgroundWork& work_;
   SettingEdits edits_;
   bool has_settings_ = false;  ///< of the run that is open
+  bool stopped_ = false;       ///< by cancel()
   std::shared_ptr<const WhatIfContext> context_;
   std::shared_ptr<const PlannedStep> recorded_step_;  ///< as recorded
   std::shared_ptr<const PlannedStep> base_;           ///< what the ranking rests on

@@ -106,7 +106,13 @@ TEST(Explanation, OfAPoseWhoseSegmentIsNotScored) {
   search->chosen.reset();
   run.record.search = search;
   EXPECT_THAT(explain(run.frame(), id).sentence, HasSubstr("is not scored yet"));
-  EXPECT_FALSE(explain(run.frame(), id).row);
+  const Explanation unscored = explain(run.frame(), id);
+  EXPECT_FALSE(unscored.row);
+  EXPECT_EQ(unscored.missing, "not scored yet");
+  ASSERT_TRUE(factor(unscored, "gain") && factor(unscored, "saliency"));
+  EXPECT_FALSE(factor(unscored, "gain")->view);
+  ASSERT_TRUE(factor(unscored, "saliency")->view) << "known before its views are scored";
+  EXPECT_THAT(unscored.sentence, HasSubstr("saliency " + factor(unscored, "saliency")->view->text));
 }
 
 TEST(Explanation, OfWhatIsNoCandidate) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "io/error.h"
+#include "viewer/parameter_text.h"
 #include "viewer/parameters.h"
 
 namespace vantage {
@@ -76,6 +77,15 @@ TEST(SettingEdits, RefusedValuesChangeNothingAndSayWhatIsAllowed) {
   EXPECT_EQ(edits.error(kB), "");
 }
 
+TEST(SettingEdits, ARangeThatAnotherValueSetsIsToldInTheUnitThatIsShown) {
+  SettingEdits edits = fresh();
+  EXPECT_FALSE(edits.setText("segmentation.seed_m", "2.5"));
+  EXPECT_EQ(edits.error("segmentation.seed_m"), "2.5 mm is out of range; allowed: 7.5 .. 10 000 mm");
+  EXPECT_FALSE(edits.setText("segmentation.voxel_m", "500"));
+  EXPECT_NE(edits.error("segmentation.voxel_m").find("then 'VCCS seeds', "), std::string::npos);
+  EXPECT_NE(edits.error("segmentation.voxel_m").find("allowed: 500 .. 10 000 mm"), std::string::npos);
+}
+
 TEST(SettingEdits, TextIsInTheUnitThatIsShown) {
   SettingEdits edits = fresh();
   EXPECT_TRUE(edits.setText(kB, " 15 mm "));
@@ -83,6 +93,8 @@ TEST(SettingEdits, TextIsInTheUnitThatIsShown) {
   EXPECT_EQ(shownText(kB, edits.value(kB)), "15");
   EXPECT_TRUE(edits.setText("views.distances_m", "[0.7, 0.9]"));
   EXPECT_EQ(shownText("views.distances_m", edits.value("views.distances_m")), "[0.7, 0.9]");
+  EXPECT_TRUE(edits.setText("views.distances_m", "0.6, 0.8 m")) << "brackets may be left out";
+  EXPECT_EQ(shownText("views.distances_m", edits.value("views.distances_m")), "[0.6, 0.8]");
 }
 
 TEST(SettingEdits, TomlHoldsWhatChangedAndReadsBackToIt) {

@@ -147,14 +147,12 @@ void drawNotices(PanelContext& context, double left, double right, double bottom
                                       ImGuiWindowFlags_NoFocusOnAppearing;
   bool dismiss = false;
   if (ImGui::Begin("notices", nullptr, kFlags)) {
-    ImGui::PushTextWrapPos(width - 60.0f);
     for (const Notice& notice : notices) {
       const Rgb color = notice.level == Notice::Level::Info ? context.theme.ink : context.theme.warning;
       ImGui::PushStyleColor(ImGuiCol_Text, packed(color));
-      ImGui::TextUnformatted(((notice.level == Notice::Level::Error ? "Error: " : "") + notice.text).c_str());
+      wrappedText((notice.level == Notice::Level::Error ? "Error: " : "") + notice.text, width - 60.0f);
       ImGui::PopStyleColor();
     }
-    ImGui::PopTextWrapPos();
     dismiss = context.widgets.button("notices/dismiss", "dismiss");
     const ImVec2 at = ImGui::GetWindowPos(), extent = ImGui::GetWindowSize();
     context.widgets.note("notices", {at.x, at.y, at.x + extent.x, at.y + extent.y, true});

@@ -104,7 +104,7 @@ class Bars {
     if (reading)
       ImGui::TextUnformatted(reading->text.c_str());
     else
-      faintText(context_.theme, "not known");
+      faintText(context_.theme, explanation_.missing);
     ImGui::PopStyleVar();
   }
 
@@ -174,13 +174,15 @@ void explainPanel(PanelContext& context) {
   const StepData& shown = context.model.shown();
   const auto id = context.model.explainedView();
   if (shown.empty() || !id) {
-    faintText(context.theme,
-              shown.empty() ? "No step is open." : "No view was chosen; select one to see why.");
+    if (shown.empty())
+      emptyText(context, "explain", "No step is open.");
+    else
+      faintText(context.theme, "No view was chosen; select one to see why.");
     return;
   }
   context.candidates.table.show(context.model.recorded(), shown);
   const Explanation explanation = explain(shown.frame(), context.candidates.table.rows(), *id);
-  ImGui::TextWrapped("%s", explanation.sentence.c_str());
+  wrappedText(explanation.sentence);
   context.widgets.note("explain/sentence");
   buttons(context, explanation);
   Bars(context, explanation).draw();

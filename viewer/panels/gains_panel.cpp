@@ -259,11 +259,11 @@ void missing(PanelContext& context) {
 
 void gainsPanel(PanelContext& context) {
   if (context.model.steps().empty()) {
-    faintText(context.theme, "No run is open: its gains appear here.");
+    emptyText(context, "gains", "No run is open: its gains appear here.");
     return;
   }
   std::vector<GainPoint> points = pointsOf(context.model.steps());
-  ImGui::TextWrapped(
+  wrappedText(
       "Unknown voxels that a view was predicted to see, and by how many its region held fewer after the next "
       "scan.");
   if (points.empty()) {

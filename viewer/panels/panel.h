@@ -28,6 +28,10 @@ struct PanelContext {
   std::function<void(const Eye&)> look_from;     ///< puts the eye of the 3-D view somewhere
 };
 
+/// What a panel says that has nothing to show: "loading…" while a file or step is read, else how to begin.
+/// Widget: "NAME/loading" or "NAME/empty".
+void emptyText(PanelContext& context, const std::string& name, const std::string& hint);
+
 void timelinePanel(PanelContext& context);    ///< curves of the run, transport, stages
 void layersPanel(PanelContext& context);      ///< what is shown and how
 void whatIfPanel(PanelContext& context);      ///< parameters

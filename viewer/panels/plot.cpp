@@ -4,11 +4,13 @@
 #include <cmath>
 #include <cstdio>
 
+#include "viewer/panels/widgets.h"
+
 namespace vantage {
 
 void faintText(const Theme& theme, const std::string& text) {
   ImGui::PushStyleColor(ImGuiCol_Text, packed(theme.faint));
-  ImGui::TextWrapped("%s", text.c_str());
+  wrappedText(text);
   ImGui::PopStyleColor();
 }
 

@@ -6,6 +6,7 @@
 
 #include "viewer/panels/panel.h"
 #include "viewer/panels/plot.h"
+#include "viewer/parameter_text.h"
 #include "viewer/parameters.h"
 
 namespace vantage {
@@ -70,13 +71,13 @@ class Row {
         number();
         break;
       default:
-        text(-1.0f);
+        list();
         break;
     }
     const std::string error = what_if_.edits().error(p_.key);
     if (error.empty()) return;
     ImGui::PushStyleColor(ImGuiCol_Text, packed(context_.theme.warning));
-    ImGui::TextWrapped("%s", error.c_str());
+    wrappedText(error);
     ImGui::PopStyleColor();
     context_.widgets.note(name_ + "/error");
   }
@@ -88,7 +89,7 @@ class Row {
     if (field_.kind == config::Kind::Boolean) return;
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted((symbol + p_.label).c_str());
-    tip(p_.key + "\n" + field_.documentation + "\nallowed: " + field_.allowed() +
+    tip(p_.key + "\n" + field_.documentation + "\nallowed: " + allowedText(field_) +
         (p_.paper ? "\nthe paper: " + shownText(p_.key, *p_.paper) + " " + p_.unit : ""));
     if (changed) resetButton();
   }
@@ -134,10 +135,18 @@ class Row {
       ImGui::SameLine();
     }
     text(field_width);
-    if (!p_.unit.empty()) {
-      ImGui::SameLine();
-      ImGui::TextDisabled("%s", p_.unit.c_str());
-    }
+    unit();
+  }
+
+  void list() {
+    text(ImGui::GetContentRegionAvail().x - ImGui::GetFontSize() * 2.4f - ImGui::GetStyle().ItemSpacing.x);
+    unit();
+  }
+
+  void unit() {
+    if (p_.unit.empty()) return;
+    ImGui::SameLine();
+    ImGui::TextDisabled("%s", p_.unit.c_str());
   }
 
   void text(float width) {
@@ -159,13 +168,13 @@ std::string stateText(const WhatIf& what_if) {
     case WhatIfState::Recorded:
       return "as recorded";
     case WhatIfState::Scoring:
-      return "scoring views that the run did not need";
+      return "scoring views not needed in the run";
     case WhatIfState::Rerunning:
       return "running the stages again…";
     case WhatIfState::Checking:
       return "planning the path to the view…";
     case WhatIfState::Settled:
-      return "as a run with these parameters would decide";
+      return "what a run would decide with these";
     case WhatIfState::Failed:
       return what_if.failure();
   }
@@ -197,8 +206,8 @@ void header(PanelContext& context) {
   tip(stateText(what_if));
   ImGui::PopStyleColor();
   if (what_if.pendingGroups() > 0)
-    ImGui::TextDisabled("%zu of %zu groups of views not scored yet", what_if.pendingGroups(),
-                        what_if.groups());
+    ImGui::TextDisabled("%zu of %zu groups of views not scored%s", what_if.pendingGroups(), what_if.groups(),
+                        what_if.cancelled() ? ": cancelled" : " yet");
   else
     ImGui::TextDisabled("all views are scored");
   Widgets& w = context.widgets;
@@ -214,7 +223,10 @@ void header(PanelContext& context) {
   ImGui::SameLine();
   command("what-if.reset", "reset all");
   ImGui::SameLine();
-  command("what-if.cancel", "cancel");
+  if (what_if.cancelled())
+    command("what-if.run again", "run again");
+  else
+    command("what-if.cancel", "cancel");
   if (w.button("what-if/copy", "copy as TOML", true, "the changed parameters as a configuration file")) {
     context.copy(what_if.edits().toml());
     context.model.say(Notice::Level::Info, "the changed parameters are on the clipboard, as TOML");
@@ -228,11 +240,12 @@ void header(PanelContext& context) {
 void whatIfPanel(PanelContext& context) {
   const WhatIf& what_if = context.model.whatIf();
   if (context.model.recorded().empty() || !context.model.isRun()) {
-    ImGui::TextWrapped("Open a run: then the parameters of its planner can be tried on every step.");
+    emptyText(context, "what-if",
+              "Open a run: then the parameters of its planner can be tried on every step.");
     return;
   }
   if (context.model.recorded().record->closing) {
-    ImGui::TextWrapped("Nothing was planned on the map after the last scan; go to a step.");
+    wrappedText("Nothing was planned on the map after the last scan; go to a step.");
     return;
   }
   header(context);

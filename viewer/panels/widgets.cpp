@@ -3,6 +3,8 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "viewer/text_lines.h"
+
 namespace vantage {
 namespace {
 
@@ -13,12 +15,22 @@ std::string idOf(const std::string& name, const std::string& label) {
 
 }  // namespace
 
+std::string inLines(const std::string& text, double width_px) {
+  const auto width_of = [](std::string_view part) {
+    return static_cast<double>(ImGui::CalcTextSize(part.data(), part.data() + part.size()).x);
+  };
+  const double width = width_px > 0.0 ? width_px : ImGui::GetContentRegionAvail().x;
+  return brokenAtSpaces(text, width, width_of);
+}
+
+void wrappedText(const std::string& text, double width_px) {
+  ImGui::TextUnformatted(inLines(text, width_px).c_str());
+}
+
 void tip(const std::string& text) {
   if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(ImGui::GetFontSize() * 28.0f);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
+  wrappedText(text, ImGui::GetFontSize() * 28.0f);
   ImGui::EndTooltip();
 }
 

@@ -53,6 +53,12 @@ class Widgets {
   std::map<std::string, WidgetBox, std::less<>> boxes_;
 };
 
+/// The text with new lines where the room to the right ends, broken as brokenAtSpaces() does: Dear ImGui
+/// itself tears numbers at their decimal points. \param width_px 0: what is left of the line
+std::string inLines(const std::string& text, double width_px = 0.0);
+/// Draws it.
+void wrappedText(const std::string& text, double width_px = 0.0);
+
 /// The text in a tooltip if the item that was submitted last is under the mouse for a while.
 void tip(const std::string& text);
 
