@@ -26,6 +26,7 @@ class FileDialogTest : public ::testing::Test {
     unsigned char* pixels = nullptr;
     int width = 0, height = 0;
     io.Fonts->GetTexDataAsAlpha8(&pixels, &width, &height);
+    io.KeyMap[ImGuiKey_A] = static_cast<int>(keyOf('A'));
     io.KeyMap[ImGuiKey_Tab] = static_cast<int>(Key::Tab);
     io.KeyMap[ImGuiKey_UpArrow] = static_cast<int>(Key::Up);
     io.KeyMap[ImGuiKey_DownArrow] = static_cast<int>(Key::Down);
@@ -189,6 +190,57 @@ TEST_F(FileDialogTest, SavingAsksBeforeItReplaces) {
   click("file/accept");
   press(keyOf('Y'));
   EXPECT_EQ(result_, fs::path(folder_ / "b.vantage"));
+}
+
+TEST_F(FileDialogTest, SavingListsFoldersAndFilesOfItsKindAlone) {
+  open(FileDialog::Mode::Save, "config.toml");
+  EXPECT_THAT(names(), ElementsAre("data", "Zoo.toml"));
+  click("file/all");
+  EXPECT_THAT(names(), ElementsAre("data", "a.vti", "b.vantage", "notes.txt", "Zoo.toml"));
+}
+
+TEST_F(FileDialogTest, EnterOnAFolderOpensItAndTheNameStays) {
+  for (const bool by_mouse : {false, true}) {
+    open(FileDialog::Mode::Save, "config.toml");
+    if (by_mouse)
+      click("file/entry data");
+    else
+      press(Key::Down);
+    press(Key::Enter);
+    EXPECT_EQ(dialog_.folder(), fs::path(folder_ / "data"));
+    EXPECT_FALSE(result_);
+    press(Key::Enter);
+    EXPECT_EQ(result_, fs::path(folder_ / "data/config.toml"));
+    result_.reset();
+  }
+}
+
+TEST_F(FileDialogTest, ANameWithoutAnEndingGetsThatOfTheFileToSave) {
+  writeFile(folder_ / "mine.toml", "x");
+  open(FileDialog::Mode::Save, "config.toml");
+  click("file/name");
+  ImGui::GetIO().KeyCtrl = true;
+  press(keyOf('A'));
+  ImGui::GetIO().KeyCtrl = false;
+  type("mine");
+  press(Key::Enter);
+  EXPECT_FALSE(result_) << "mine.toml is there";
+  press(keyOf('Y'));
+  EXPECT_EQ(result_, fs::path(folder_ / "mine.toml"));
+}
+
+TEST_F(FileDialogTest, TheListTakesAllRoomThatIsLeft) {
+  open();
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const auto strip = [&] {
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const double em = ImGui::GetFontSize(), height = std::min(screen.y - 2 * em, 34 * em);
+    return (screen.y + height) / 2 - style.WindowPadding.y - widgets_.find("file/cancel")->bottom;
+  };
+  EXPECT_NEAR(strip(), 0.0, 2.0);
+  press(Key::Enter);
+  ASSERT_NE(dialog_.problem(), "");
+  EXPECT_GT(strip(), ImGui::GetFontSize() - 1.0) << "the line about the problem is below";
 }
 
 TEST_F(FileDialogTest, SavingUnderANewNameNeedsAFolderThatIsThere) {

@@ -34,10 +34,10 @@ bool isHidden(const std::string& name) {
   return name.starts_with('.');
 }
 
-bool isKnown(const std::string& name) {
+std::string endingOf(const std::string& name) {
   std::string ending = fs::path(name).extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return std::ranges::find(knownEndings(), ending) != knownEndings().end();
+  return ending;
 }
 
 std::string sizeText(std::uintmax_t bytes) {
@@ -132,6 +132,8 @@ void FileDialog::open(Mode mode, const fs::path& folder, const std::string& name
   std::error_code error;
   fs::path nearest = fs::absolute(folder.empty() ? fs::path(".") : folder, error).lexically_normal();
   while (!fs::is_directory(nearest, error) && nearest.has_relative_path()) nearest = nearest.parent_path();
+  file_ = name;
+  ending_ = mode == Mode::Save ? endingOf(name) : "";
   goTo(nearest);
   name_ = name;
 }
@@ -143,7 +145,7 @@ void FileDialog::close() {
 
 void FileDialog::goTo(const fs::path& folder) {
   folder_ = folder.has_filename() || folder == folder.root_path() ? folder : folder.parent_path();
-  name_.clear();
+  name_ = mode_ == Mode::Save ? file_ : "";
   list();
 }
 
@@ -153,15 +155,26 @@ void FileDialog::list() {
   entries_ = entriesOf(folder_, error);
   if (error) problem_ = folder_.string() + " cannot be read: " + error.message();
   std::erase_if(entries_, [&](const Entry& entry) {
-    return (!show_hidden_ && isHidden(entry.name)) || (!show_all_ && !entry.folder && !isKnown(entry.name));
+    return (!show_hidden_ && isHidden(entry.name)) || (!show_all_ && !entry.folder && !isWanted(entry.name));
   });
   chosen_ = -1;
+}
+
+bool FileDialog::isWanted(const std::string& name) const {
+  const std::string ending = endingOf(name);
+  if (!ending_.empty()) return ending == ending_;
+  return std::ranges::find(knownEndings(), ending) != knownEndings().end();
+}
+
+bool FileDialog::folderIsChosen() const {
+  return chosen_ >= 0 && entries_[chosen_].folder && name_ == entries_[chosen_].name + "/";
 }
 
 void FileDialog::choose(int index) {
   if (entries_.empty()) return;
   chosen_ = std::clamp(index, 0, static_cast<int>(entries_.size()) - 1);
   name_ = entries_[chosen_].name + (entries_[chosen_].folder ? "/" : "");
+  if (!entries_[chosen_].folder) file_ = name_;
   problem_.clear();
   scroll_ = true;
 }
@@ -173,8 +186,9 @@ void FileDialog::accept() {
     return;
   }
   std::error_code error;
-  const fs::path path = typedPath(folder_, name_);
+  fs::path path = typedPath(folder_, name_);
   if (fs::is_directory(path, error)) return goTo(path);
+  if (mode_ == Mode::Save && !path.has_extension()) path += ending_;
   const bool there = fs::exists(path, error);
   if (mode_ == Mode::Open && !there) {
     problem_ = path.string() + " does not exist";
@@ -195,9 +209,21 @@ void FileDialog::drawPlace(Widgets& widgets) {
   ImGui::TextUnformatted(folder_.string().c_str());
 }
 
+std::string FileDialog::question() const {
+  return existing_->filename().string() + " exists. Replace it?";
+}
+
+/// What is drawn below the list.
+float FileDialog::footerHeight() const {
+  const float line = ImGui::GetFrameHeightWithSpacing(), gap = ImGui::GetStyle().ItemSpacing.y;
+  const std::string text = existing_ ? question() : problem_;
+  const float lines = text.empty() ? 0.0f : ImGui::CalcTextSize(inLines(text).c_str()).y + gap;
+  return lines + (existing_ ? line : 2.0f * line);
+}
+
 void FileDialog::drawEntries(Widgets& widgets) {
   int entered = -1;
-  if (ImGui::BeginChild("entries", {0.0f, -4.5f * ImGui::GetFrameHeightWithSpacing()}, true)) {
+  if (ImGui::BeginChild("entries", {0.0f, -footerHeight()}, true)) {
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(entries_.size()));
     if (scroll_ && chosen_ >= 0)
@@ -221,9 +247,11 @@ void FileDialog::drawEntries(Widgets& widgets) {
         ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(size.c_str()).x);
         ImGui::TextDisabled("%s", size.c_str());
       }
-    if (entries_.empty())
-      ImGui::TextDisabled("%s",
-                          show_all_ ? "nothing here" : "no folders, and no files that the program knows");
+    if (entries_.empty() && show_all_)
+      ImGui::TextDisabled("nothing here");
+    else if (entries_.empty())
+      ImGui::TextDisabled("no folders, and no files %s",
+                          ending_.empty() ? "that the program knows" : ("*" + ending_).c_str());
   }
   ImGui::EndChild();
   if (entered >= 0) accept();
@@ -244,6 +272,7 @@ void FileDialog::drawField(Widgets& widgets) {
       ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion |
           ImGuiInputTextFlags_CallbackHistory,
       onFieldKey, &field);
+  if (ImGui::IsItemEdited() && !folderIsChosen()) file_ = fs::path(name_).filename().string();
   typing_ = ImGui::IsItemActive() && !(was_empty && name_.empty());
   widgets.note("file/name");
   if (entered) {
@@ -256,7 +285,7 @@ void FileDialog::drawButtons(Widgets& widgets) {
   if (widgets.toggle("file/hidden", "hidden files", show_hidden_)) list();
   ImGui::SameLine();
   if (widgets.toggle("file/all", "all files", show_all_)) list();
-  const char* verb = mode_ == Mode::Open ? "Open" : "Save";
+  const char* verb = folderIsChosen() ? "Enter" : mode_ == Mode::Open ? "Open" : "Save";
   const float right = ImGui::CalcTextSize(verb).x + ImGui::CalcTextSize("Cancel").x +
                       4 * ImGui::GetStyle().FramePadding.x + ImGui::GetStyle().ItemSpacing.x;
   ImGui::SameLine(ImGui::GetContentRegionMax().x - right);
@@ -266,7 +295,7 @@ void FileDialog::drawButtons(Widgets& widgets) {
 }
 
 void FileDialog::drawQuestion(Widgets& widgets) {
-  ImGui::TextWrapped("%s exists. Replace it?", existing_->filename().string().c_str());
+  wrappedText(question());
   const bool replace = widgets.button("file/replace", "Replace (Y)");
   ImGui::SameLine();
   const bool keep = widgets.button("file/keep", "Keep it (N)");
@@ -306,7 +335,7 @@ std::optional<fs::path> FileDialog::draw(Widgets& widgets) {
     } else {
       drawField(widgets);
       drawButtons(widgets);
-      ImGui::TextWrapped("%s", problem_.c_str());
+      if (!problem_.empty()) wrappedText(problem_);
       if (open_ && !result_ && !existing_) keys();
     }
     if (result_) close();

@@ -25,9 +25,10 @@ class FileDialog {
     bool operator==(const Entry&) const = default;
   };
 
-  /// Opens at the next draw(). Only files with endings that the program knows are listed unless all are asked
-  /// for. \param name what stands in the field at first. A folder that is not there gives way to the nearest
-  /// one above it.
+  /// Opens at the next draw(). Only files with endings that the program knows are listed, to save only those
+  /// with the ending of `name`, unless all are asked for. \param name what stands in the field at first, and
+  /// again in every folder that is entered to save; a name without an ending gets its ending. A folder that
+  /// is not there gives way to the nearest one above it.
   void open(Mode mode, const std::filesystem::path& folder, const std::string& name = "");
   bool isOpen() const { return open_; }
   void close();
@@ -46,6 +47,10 @@ class FileDialog {
  private:
   void goTo(const std::filesystem::path& folder);
   void list();
+  bool isWanted(const std::string& name) const;
+  bool folderIsChosen() const;
+  std::string question() const;
+  float footerHeight() const;
   void choose(int index);
   void accept();
   void drawPlace(Widgets& widgets);
@@ -63,6 +68,8 @@ class FileDialog {
   std::vector<Entry> entries_;
   int chosen_ = -1;
   std::string name_, problem_;
+  std::string file_;                               ///< name to save under, whatever folder is chosen
+  std::string ending_;                             ///< of files to save, ".toml"; empty = any that is known
   std::optional<std::filesystem::path> existing_;  ///< the file that would be replaced
   std::optional<std::filesystem::path> result_;
 };
