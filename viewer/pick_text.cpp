@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "viewer/captions.h"
+#include "viewer/view_words.h"
 
 namespace vantage {
 namespace {
@@ -25,18 +26,52 @@ std::string placeText(const Eigen::Vector3d& p) {
   return format("(%.3f, %.3f, %.3f) m", p.x(), p.y(), p.z());
 }
 
+/// "1st", "2nd", "11th".
+std::string ordinal(std::size_t place) {
+  const bool teen = place % 100 / 10 == 1;
+  const char* ending = teen              ? "th"
+                       : place % 10 == 1 ? "st"
+                       : place % 10 == 2 ? "nd"
+                       : place % 10 == 3 ? "rd"
+                                         : "th";
+  return std::to_string(place) + ending;
+}
+
+/// Where a segment comes in the order in which segments are tried: ", tried 2nd of 5"; empty before it is
+/// known. \param index into SaliencyResult::segments
+std::string triedText(const StepRecord& record, std::size_t index) {
+  if (!record.search) return "";
+  const auto& order = record.search->segments;
+  const auto at = std::ranges::find(order, static_cast<std::int32_t>(index), &SegmentSearch::segment);
+  if (at == order.end()) return ", not tried: it has no contour points";
+  return ", tried " + ordinal(static_cast<std::size_t>(at - order.begin()) + 1) + " of " +
+         std::to_string(order.size());
+}
+
+/// What the hierarchical planner computed of a view before the test that it failed.
+std::string utilityText(const CandidateRow& row) {
+  std::string text;
+  if (row.survived())
+    text = format("utility %.4f = surface %.3f x distance factor %.3f; ", row.score, row.surface,
+                  row.distance_factor);
+  if (!row.cast()) return "";
+  return text + "unknown " + whole(row.unknown) + ", occupied " + whole(row.occupied);
+}
+
 std::string viewText(const Picked& picked, const StepData& step, const std::vector<CandidateRow>& rows) {
   const auto row =
       std::ranges::find_if(rows, [&](const CandidateRow& r) { return !r.pending() && r.id == picked.id; });
   std::string text = "view " + std::to_string(picked.id);
-  if (row == rows.end()) return text + " at " + placeText(picked.p_world);
-  if (row->rank) text += ", rank " + std::to_string(*row->rank);
-  text += ": " + verdictWord(*row) + "\n";
-  if (step.record->utilities)
-    return text + format("utility %.4f, unknown %.0f, occupied %.0f, distance factor %.2f", row->score,
-                         row->unknown, row->occupied, row->distance_factor);
-  text += "gain " + grouped(std::llround(row->score)) + " rays";
-  if (row->segment > 0) text += format("; segment %u, saliency %.3f", row->segment, row->saliency);
+  if (row == rows.end()) return text + ", not scored\nat " + placeText(picked.p_world);
+  text += (row->rank ? ", rank " + std::to_string(*row->rank) : ", no rank") + ": " + verdictWord(*row);
+  if (step.record->utilities) {
+    const std::string factors = utilityText(*row);
+    return factors.empty() ? text : text + "\n" + factors;
+  }
+  text += "\ngain " + whole(row->score) + " rays";
+  if (row->segment > 0)
+    text +=
+        format("; segment %u, saliency %.3f, tried ", row->segment, row->saliency) + ordinal(row->group + 1);
   return text;
 }
 
@@ -51,9 +86,11 @@ std::string contourText(const Picked& picked, const StepData& step) {
 std::string segmentText(const Picked& picked, const StepData& step) {
   const auto& saliency = step.record->saliency;
   if (!saliency || picked.id == 0 || picked.id > saliency->segments.size()) return "";
-  const Segment& s = saliency->segments[picked.id - 1];
-  return format("segment %u, %u points, saliency %.3f = F %.3f x d_min/d_max %.3f\n", s.label, s.points,
-                s.saliency, s.isolation, s.roundness) +
+  const std::size_t index = picked.id - 1;
+  const Segment& s = saliency->segments[index];
+  return "segment " + std::to_string(s.label) + triedText(*step.record, index) + ", " +
+         plural(s.points, "point") + "\n" +
+         format("saliency %.3f = F %.3f x d_min/d_max %.3f\n", s.saliency, s.isolation, s.roundness) +
          format("d_min %.1f cm, d_max %.1f cm, radius %.1f cm\n", 100.0 * s.extent_m[2],
                 100.0 * s.extent_m[0], 100.0 * s.radius_m);
 }
@@ -65,7 +102,7 @@ std::string voxelText(const Picked& picked, const StepData& step) {
     const std::size_t index = step.volume->geometry().index(v);
     const TsdfVoxel voxel = step.volume->voxels()[index];
     text += voxel.weight > 0 ? format("; tsdf %+.3f, weight %d", voxel.distance(), int(voxel.weight))
-                             : "; never observed";
+                             : "; no tsdf, weight 0: never observed";
   } else if (step.octree && step.octree->geometry().contains(v)) {
     const auto log_odds = step.octree->logOdds(v);
     text += log_odds ? format("; occupancy %.3f", 1.0 / (1.0 + std::exp(-*log_odds))) : "; not stored";
