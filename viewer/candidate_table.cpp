@@ -7,19 +7,22 @@ namespace vantage {
 namespace {
 
 constexpr CandidateColumnText kRank{CandidateColumn::Rank, "rank", "#",
-                                    "Place in the order in which the views are tried", false};
-constexpr CandidateColumnText kChange{CandidateColumn::Change, "change", "±",
-                                      "Places won or lost against the recorded decision"};
+                                    "Rank: place in the order in which the views are tried, 1 = first",
+                                    false};
+constexpr CandidateColumnText kChange{
+    CandidateColumn::Change, "change", "±",
+    "Change of rank against the run's own decision: ▲ 3 is tried three places earlier, ▼ 3 three later; new "
+    "has a rank only now, gone has lost its own. Empty: as in the run"};
 constexpr CandidateColumnText kView{CandidateColumn::View, "view", "view", "Number of the candidate", false};
 constexpr CandidateColumnText kUnknown{CandidateColumn::Unknown, "unknown", "unknown",
                                        "Rays cast that end on unknown and count"};
 constexpr CandidateColumnText kOccupied{CandidateColumn::Occupied, "occupied", "occupied",
                                         "Rays cast that end on known surface and count"};
 constexpr CandidateColumnText kDistance{CandidateColumn::Distance, "distance", "away, m",
-                                        "Straight distance from where the sensor is, metres", false};
-constexpr CandidateColumnText kVerdict{CandidateColumn::Verdict, "verdict", "verdict",
-                                       "Chosen, behind it, or why it fell out: select the view to read more",
-                                       false};
+                                        "Straight distance from where the sensor is, in metres", false};
+constexpr CandidateColumnText kVerdict{
+    CandidateColumn::Verdict, "verdict", "verdict",
+    "What became of the view; select it, and a sentence below the table says more", false};
 
 /// The row's value has no place among the others of its column.
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -74,8 +77,18 @@ double valueIn(const CandidateRow& row, CandidateColumn column) {
 bool passes(const CandidateRow& row, const CandidateFilter& filter) {
   if (filter.group && row.group != *filter.group) return false;
   if (filter.ranked_only && !row.rank && !row.pending()) return false;
+  if (filter.reachable_only && (isUnreachable(row.reachability) || row.verdict == ViewVerdict::NotFree))
+    return false;
   if (filter.text.empty()) return true;
   return !row.pending() && std::to_string(row.id).find(filter.text) != std::string::npos;
+}
+
+/// The list's parts, one after the other: the view whose id was typed, rows with a value in the column,
+/// pending ones without, others without.
+int partOf(const CandidateRow& row, const CandidateFilter& filter, bool without_value) {
+  if (!filter.text.empty() && !row.pending() && std::to_string(row.id) == filter.text) return 0;
+  if (!without_value) return 1;
+  return row.pending() ? 2 : 3;
 }
 
 template <class T>
@@ -91,10 +104,11 @@ const std::vector<CandidateColumnText>& candidateColumns(bool hierarchical) {
       kChange,
       kView,
       {CandidateColumn::Gain, "gain", "gain", "Rays at full resolution that end on unknown and count"},
-      {CandidateColumn::Segment, "segment", "seg.", "Label of its segment; sorted as segments are tried",
-       false},
+      {CandidateColumn::Segment, "segment", "seg.",
+       "Segment: the label of its segment. Sorted as segments are tried, not by label", false},
+      {CandidateColumn::Saliency, "saliency", "sal.",
+       "Saliency of its segment: isolation × roundness. Segments are tried by falling saliency"},
       kVerdict,
-      {CandidateColumn::Saliency, "saliency", "saliency", "Of its segment: isolation × roundness"},
       kUnknown,
       kOccupied,
       kDistance};
@@ -103,11 +117,12 @@ const std::vector<CandidateColumnText>& candidateColumns(bool hierarchical) {
       kChange,
       kView,
       {CandidateColumn::Utility, "utility", "utility", "Surface factor × distance factor (eq. 1)"},
+      {CandidateColumn::Surface, "surface", "surf.",
+       "Surface factor: unknown voxels seen per unknown voxel of the object's box (eq. 3)"},
+      {CandidateColumn::DistanceFactor, "distance factor", "dist.",
+       "Distance factor: 1 where the sensor is, less the farther the way (eq. 5)"},
       kVerdict,
       kUnknown,
-      {CandidateColumn::Surface, "surface", "surface", "Seen unknown per unknown voxel of the object's box"},
-      {CandidateColumn::DistanceFactor, "distance factor", "dist. f.",
-       "Distance factor: 1 where the sensor is, less the farther the way (eq. 5)"},
       kOccupied,
       kDistance};
   return hierarchical ? octree : contour;
@@ -117,7 +132,7 @@ std::vector<std::uint32_t> listedRows(const std::vector<CandidateRow>& rows, con
                                       CandidateColumn column, bool descending) {
   struct Entry {
     double key;  ///< ascending; kNone never compares
-    int group;   ///< rows with a value, pending ones without, others without
+    int part;    ///< see partOf()
     std::uint32_t index;
   };
   std::vector<Entry> entries;
@@ -126,10 +141,10 @@ std::vector<std::uint32_t> listedRows(const std::vector<CandidateRow>& rows, con
     if (!passes(rows[i], filter)) continue;
     const double value = valueIn(rows[i], column);
     const bool none = value != value;
-    entries.push_back({none ? 0.0 : descending ? -value : value, !none ? 0 : rows[i].pending() ? 1 : 2, i});
+    entries.push_back({none ? 0.0 : descending ? -value : value, partOf(rows[i], filter, none), i});
   }
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-    if (a.group != b.group) return a.group < b.group;
+    if (a.part != b.part) return a.part < b.part;
     return a.key != b.key ? a.key < b.key : a.index < b.index;
   });
   std::vector<std::uint32_t> listed(entries.size());
@@ -160,11 +175,12 @@ void CandidateTable::show(const StepData& recorded, const StepData& shown) {
   ++revision_;
 }
 
-void CandidateTable::sortBy(CandidateColumn column, bool descending) {
-  if (column == column_ && descending == descending_) return;
+bool CandidateTable::sortBy(CandidateColumn column, bool descending) {
+  if (column == column_ && descending == descending_) return false;
   column_ = column;
   descending_ = descending;
   stale_ = true;
+  return true;
 }
 
 void CandidateTable::filter(const CandidateFilter& filter) {

@@ -42,14 +42,16 @@ const std::vector<CandidateColumnText>& candidateColumns(bool hierarchical);
 
 /// Which rows are listed.
 struct CandidateFilter {
-  std::string text = {};     ///< part of the id; empty = any
-  bool ranked_only = false;  ///< only views with a place, and what is pending
+  std::string text = {};        ///< part of the id; empty = any
+  bool ranked_only = false;     ///< only views with a place, and what is pending
+  bool reachable_only = false;  ///< none that the robot is known not to be able to take
   std::optional<std::uint32_t> group = {};
   bool operator==(const CandidateFilter&) const = default;
 };
 
-/// Rows that pass the filter, as indices, sorted. Rows without a value in the column come last, pending ones
-/// before the others; equal ones keep their order. The same for the same input.
+/// Rows that pass the filter, as indices, sorted, but the view whose id is the filter's text first. Rows
+/// without a value in the column come last, pending ones before the others; equal ones keep their order. The
+/// same for the same input.
 std::vector<std::uint32_t> listedRows(const std::vector<CandidateRow>& rows, const CandidateFilter& filter,
                                       CandidateColumn column, bool descending);
 
@@ -61,7 +63,8 @@ class CandidateTable {
   /// step. As long as both have the same header, nothing is tried out: what is shown is then what later
   /// decisions are compared with, with more segments scored than recorded maybe.
   void show(const StepData& recorded, const StepData& shown);
-  void sortBy(CandidateColumn column, bool descending);
+  /// True if that is another order than before.
+  bool sortBy(CandidateColumn column, bool descending);
   void filter(const CandidateFilter& filter);
 
   const std::vector<CandidateRow>& rows() const { return rows_; }

@@ -214,4 +214,32 @@ std::string verdictWord(const CandidateRow& row) {
   return "";
 }
 
+std::string_view verdictMeaning(ViewVerdict verdict, bool hierarchical) {
+  switch (verdict) {
+    case ViewVerdict::Chosen:
+      return "the view that is taken";
+    case ViewVerdict::Eligible:
+      return "good enough, but the chosen view comes before it";
+    case ViewVerdict::LaterSegment:
+      return "good enough, but its segment is tried after that of the chosen view";
+    case ViewVerdict::Unreachable:
+      return "good enough, but the robot cannot take it";
+    case ViewVerdict::BelowThreshold:
+      return hierarchical ? "it sees nothing unknown" : "it does not gain more than the gain threshold";
+    case ViewVerdict::TakenBefore:
+      return "too near to a view that was taken before";
+    case ViewVerdict::NotFree:
+      return "the robot does not fit there";
+    case ViewVerdict::LittleSurface:
+      return "too little known surface in view to register the scan (h_oc)";
+    case ViewVerdict::Stopped:
+      return "no view sees enough unknown to go on (h_stop)";
+    case ViewVerdict::Waiting:
+      return "good enough, but a segment that is tried before its own is not scored yet";
+    case ViewVerdict::Pending:
+      return "the views of this segment are not scored yet";
+  }
+  return "";
+}
+
 }  // namespace vantage

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "viewer/scene_frame.h"
@@ -80,5 +81,9 @@ void compareRanks(std::vector<CandidateRow>& current, const std::vector<Candidat
 
 /// What became of it in a word or two, for a narrow column: "chosen", "behind", "in collision".
 std::string verdictWord(const CandidateRow& row);
+
+/// What the word of a verdict means: "good enough, but the chosen view comes before it". \param hierarchical
+/// of that planner; others have verdicts of their own
+std::string_view verdictMeaning(ViewVerdict verdict, bool hierarchical);
 
 }  // namespace vantage

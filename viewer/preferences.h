@@ -31,7 +31,7 @@ struct Preferences {
   ThemeName theme = ThemeName::Dark;
   double font_scale = 1.0;
   int window_width = 1280, window_height = 800;  ///< pixels
-  double left_em = 20.0, right_em = 24.0, timeline_em = 11.0;
+  double left_em = 20.0, right_em = 25.5, timeline_em = 11.0;
   bool show_left = true, show_right = true, show_timeline = true;
   bool show_inset = true, show_legend = true;
   bool keyboard_navigation = false;  ///< arrows and Tab move between widgets

@@ -93,6 +93,26 @@ TEST(CandidateTable, Filters) {
   EXPECT_TRUE(listed({.text = "no such view"}).empty());
 }
 
+TEST(CandidateTable, ListsTheViewWhoseNumberIsTypedFirst) {
+  const std::vector<CandidateRow> rows = someRows();
+  for (const bool descending : {false, true}) {
+    const auto listed = listedRows(rows, {.text = "21"}, CandidateColumn::View, descending);
+    ASSERT_GT(listed.size(), 3u);
+    EXPECT_EQ(rows[listed.front()].id, 21u);
+    EXPECT_NE(rows[listed.back()].id, 21u);
+  }
+}
+
+TEST(CandidateTable, LeavesOutWhatTheRobotCannotTakeButNotWhatItWasNotAskedFor) {
+  std::vector<CandidateRow> rows(4);
+  rows[0].reachability = Reachability::Reachable;
+  rows[1].reachability = Reachability::NotChecked;
+  rows[2].reachability = Reachability::InCollision;
+  rows[3].verdict = ViewVerdict::NotFree;
+  EXPECT_EQ(listedRows(rows, {.reachable_only = true}, CandidateColumn::View, false),
+            (std::vector<std::uint32_t>{0, 1}));
+}
+
 TEST(CandidateTable, WorksOnlyWhenSomethingChanged) {
   const test::SyntheticRun run = test::makeSyntheticRun();
   const StepData data = dataOf(run);

@@ -181,6 +181,7 @@ TEST_F(ViewsPanel, ShowsTheRaysOfAViewOfTheHierarchicalPlanner) {
   EXPECT_TRUE(
       std::ranges::is_sorted(ids, std::greater<>(), [&](std::uint32_t id) { return rowOf(id).score; }));
   inspector_->model().selected_view = ids[1];
+  ui_->frame();
   ui_->click("explain/show counted");
   EXPECT_TRUE(inspector_->preferences().view.layers.has(Layer::CoarseRays));
   EXPECT_TRUE(inspector_->preferences().view.layers.has(Layer::RefinedRays));

@@ -10,8 +10,15 @@ namespace vantage {
 /// What the panels about views keep from frame to frame.
 struct CandidateState {
   CandidateTable table;
-  /// The view that the table has scrolled to: it scrolls again when another one is selected elsewhere.
-  std::optional<std::uint32_t> scrolled_to;
+  /// What the table has scrolled to. It scrolls again when another view is selected elsewhere, and when the
+  /// view comes to another place or among other rows.
+  struct Scrolled {
+    std::optional<std::uint32_t> view = {};
+    std::optional<std::size_t> place = {};  ///< in CandidateTable::listed()
+    CandidateFilter filter = {};
+    bool operator==(const Scrolled&) const = default;
+  };
+  Scrolled scrolled;
 
   /// Voxels that a view counts, of the last one that was asked for.
   struct Counted {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "viewer/captions.h"
 #include "viewer/panels/panel.h"
@@ -12,27 +13,52 @@
 namespace vantage {
 namespace {
 
-/// Width of a column in letters.
-float widthOf(CandidateColumn column) {
+/// The widest text that a column is made for.
+const char* widestOf(CandidateColumn column, bool hierarchical) {
   switch (column) {
     case CandidateColumn::Rank:
-      return 2.6f;
+      return hierarchical ? "999" : "9999";
     case CandidateColumn::Change:
-      return 2.5f;
-    case CandidateColumn::View:
-      return 3.2f;
+      return "gone";
     case CandidateColumn::Gain:
-    case CandidateColumn::Utility:
-      return 3.5f;
+      return "999 999";
+    case CandidateColumn::View:
+      return hierarchical ? "9999" : "99999";
     case CandidateColumn::Segment:
-      return 2.1f;
+      return "99";
+    case CandidateColumn::Saliency:
+      return "0.99";
+    case CandidateColumn::Utility:
+      return "0.9999";
+    case CandidateColumn::Surface:
+    case CandidateColumn::DistanceFactor:
+      return "0.999";
     case CandidateColumn::Verdict:
-      return 5.6f;
-    case CandidateColumn::Unknown:
-      return 4.2f;
+      return hierarchical ? "registration" : "out of reach";
     default:
-      return 4.6f;
+      return "99 999";
   }
+}
+
+float widthOf(const CandidateColumnText& column, bool hierarchical) {
+  return std::max(ImGui::CalcTextSize(column.title.data()).x,
+                  ImGui::CalcTextSize(widestOf(column.column, hierarchical)).x);
+}
+
+/// What a column means; of verdicts every word.
+std::string helpOf(const CandidateColumnText& column, bool hierarchical) {
+  std::string text = std::string(column.about) + ". Click to sort.";
+  if (column.column != CandidateColumn::Verdict) return text;
+  using V = ViewVerdict;
+  static const std::vector<V> contour = {V::Chosen,         V::Eligible,    V::LaterSegment,
+                                         V::BelowThreshold, V::TakenBefore, V::Waiting};
+  static const std::vector<V> octree = {V::Chosen,  V::Eligible,    V::NotFree,       V::LittleSurface,
+                                        V::Stopped, V::TakenBefore, V::BelowThreshold};
+  for (const V verdict : hierarchical ? octree : contour)
+    text +=
+        "\n" + verdictWord({.verdict = verdict}) + ": " + std::string(verdictMeaning(verdict, hierarchical));
+  return text + "\nout of reach, in collision, cut off, no path: " +
+         std::string(verdictMeaning(V::Unreachable, hierarchical));
 }
 
 struct Colored {
@@ -130,12 +156,22 @@ class Table {
         explained_(context.model.explainedView()) {}
 
   void draw() {
-    constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY |
-                                       ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerV |
-                                       ImGuiTableFlags_Resizable | ImGuiTableFlags_Hideable |
-                                       ImGuiTableFlags_Sortable | ImGuiTableFlags_NoSavedSettings;
+    if (state_.table.listed().empty()) {
+      faintText(context_.theme, "No view passes the filter.");
+      context_.widgets.note("candidates/nothing");
+      return;
+    }
+    // Borders in the head alone: in the body they would take clicks on rows.
+    constexpr ImGuiTableFlags kFlags =
+        ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |
+        ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_NoBordersInBody | ImGuiTableFlags_Resizable |
+        ImGuiTableFlags_Hideable | ImGuiTableFlags_Sortable | ImGuiTableFlags_NoSavedSettings;
     const char* id = state_.table.hierarchical() ? "views by utility" : "views by gain";
-    if (!ImGui::BeginTable(id, static_cast<int>(columns_.size()), kFlags)) return;
+    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding,
+                        {ImGui::GetFontSize() * 0.2f, ImGui::GetStyle().CellPadding.y});
+    const bool open = ImGui::BeginTable(id, static_cast<int>(columns_.size()), kFlags);
+    ImGui::PopStyleVar();
+    if (!open) return;
     head();
     sort();
     scrollToSelected();
@@ -157,7 +193,7 @@ class Table {
       if (column.largest_first) flags |= ImGuiTableColumnFlags_PreferSortDescending;
       if (column.column == CandidateColumn::Rank)
         flags |= ImGuiTableColumnFlags_DefaultSort | ImGuiTableColumnFlags_NoHide;
-      ImGui::TableSetupColumn(column.name.data(), flags, widthOf(column.column) * ImGui::GetFontSize());
+      ImGui::TableSetupColumn(column.name.data(), flags, widthOf(column, state_.table.hierarchical()));
     }
     for (int i = 0; i < static_cast<int>(columns_.size()); ++i)
       if (columns_[i].column == CandidateColumn::Change)
@@ -166,7 +202,7 @@ class Table {
     for (int i = 0; i < static_cast<int>(columns_.size()); ++i) {
       if (!ImGui::TableSetColumnIndex(i)) continue;
       headerCell(columns_[i]);
-      tip(std::string(columns_[i].about) + ". Click to sort.");
+      tip(helpOf(columns_[i], state_.table.hierarchical()));
     }
   }
 
@@ -181,22 +217,28 @@ class Table {
   void sort() {
     ImGuiTableSortSpecs* specs = ImGui::TableGetSortSpecs();
     if (!specs || specs->SpecsCount < 1) return;
-    if (specs->SpecsDirty) ImGui::SetScrollY(0.0f);
     specs->SpecsDirty = false;
     const ImGuiTableColumnSortSpecs& first = specs->Specs[0];
-    state_.table.sortBy(columns_[first.ColumnIndex].column,
-                        first.SortDirection == ImGuiSortDirection_Descending);
+    sorted_ = state_.table.sortBy(columns_[first.ColumnIndex].column,
+                                  first.SortDirection == ImGuiSortDirection_Descending);
   }
 
-  /// A view that was selected elsewhere is brought into the table's window.
+  /// Brings the selected view into the table's window when it has moved; another order, and what is typed,
+  /// are looked at from the top.
   void scrollToSelected() {
-    if (explained_ == state_.scrolled_to) return;
-    state_.scrolled_to = explained_;
-    if (!explained_) return;
-    const auto place = state_.table.placeOf(*explained_);
-    if (!place) return;
-    const float middle = (static_cast<float>(*place) + 2.0f) * rowHeight() - ImGui::GetWindowHeight() / 2.0f;
-    ImGui::SetScrollY(std::max(0.0f, middle));
+    const CandidateState::Scrolled now = place(explained_), before = std::exchange(state_.scrolled, now);
+    const bool typed = now.filter != before.filter && !now.filter.text.empty();
+    if (sorted_ || typed) {
+      ImGui::SetScrollY(0.0f);
+    } else if (now != before && now.place) {
+      const float middle =
+          (static_cast<float>(*now.place) + 2.0f) * rowHeight() - ImGui::GetWindowHeight() / 2.0f;
+      ImGui::SetScrollY(std::max(0.0f, middle));
+    }
+  }
+
+  CandidateState::Scrolled place(std::optional<std::uint32_t> view) {
+    return {view, view ? state_.table.placeOf(*view) : std::nullopt, state_.table.filter()};
   }
 
   void row(const CandidateRow& row) {
@@ -210,6 +252,7 @@ class Table {
     ImGui::EndDisabled();
     noteRow(row);
     if (row.pending()) tip(plural(row.poses, "view") + " of this segment, not scored yet");
+    if (!row.pending() && overVerdict()) tip(verdictTip(row));
     if (row.chosen()) markChosen(at);
     ImGui::SetCursorScreenPos(at);
     for (int i = 0; i < static_cast<int>(columns_.size()); ++i) {
@@ -218,6 +261,19 @@ class Table {
       cell(cellText(row, column, frame_, context_.theme), isNumber(column));
     }
     ImGui::PopID();
+  }
+
+  bool overVerdict() const {
+    const auto verdict = std::ranges::find(columns_, CandidateColumn::Verdict, &CandidateColumnText::column);
+    return ImGui::TableGetColumnFlags(static_cast<int>(verdict - columns_.begin())) &
+           ImGuiTableColumnFlags_IsHovered;
+  }
+
+  std::string verdictTip(const CandidateRow& row) const {
+    const bool known = row.verdict == ViewVerdict::Unreachable;
+    return verdictWord(row) + ": " +
+           std::string(known ? toString(row.reachability)
+                             : verdictMeaning(row.verdict, state_.table.hierarchical()));
   }
 
   /// Names what of the row's whole length can be seen.
@@ -237,7 +293,7 @@ class Table {
 
   void select(std::uint32_t id) {
     context_.model.selected_view = id;
-    state_.scrolled_to = id;
+    state_.scrolled = place(id);  // it is under the mouse
   }
 
   void markChosen(ImVec2 at) {
@@ -251,23 +307,55 @@ class Table {
   const std::vector<CandidateColumnText>& columns_;
   SceneFrame frame_;
   std::optional<std::uint32_t> explained_;
+  bool sorted_ = false;  ///< anew in this frame
 };
+
+/// The check box that comes next stays on the line if there is room for it.
+void sameLineIfFits(const char* label) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float width = ImGui::GetFrameHeight() + style.ItemInnerSpacing.x + ImGui::CalcTextSize(label).x;
+  ImGui::SameLine();
+  if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+}
+
+/// Part of a view's number, and a button that empties it, as Esc does. True if Enter was pressed.
+bool numberField(Widgets& widgets, std::string& text) {
+  const auto pressed = [](Key key) { return ImGui::IsKeyPressed(static_cast<int>(key), false); };
+  const bool taken = widgets.field("candidates/filter", text, ImGui::GetFontSize() * 4.6, "view no.");
+  const bool left = ImGui::IsItemDeactivated();
+  if (text.empty()) tip("part of a view's number; Enter selects the first that is listed");
+  if (left && pressed(Key::Escape)) text.clear();
+  ImGui::SameLine(0.0f, 2.0f);
+  if (widgets.button("candidates/clear filter", "×", !text.empty(), "list all numbers again (Esc)"))
+    text.clear();
+  return taken && (pressed(Key::Enter) || pressed(Key::KeypadEnter));
+}
+
+/// Selects the view that is listed first, that whose number was typed say.
+void selectFirst(PanelContext& context) {
+  CandidateTable& table = context.candidates.table;
+  if (table.filter().text.empty() || table.listed().empty()) return;
+  context.model.selected_view = table.rows()[table.listed().front()].id;
+}
 
 /// Which rows are listed.
 void filterLine(PanelContext& context) {
   CandidateTable& table = context.candidates.table;
   CandidateFilter filter = table.filter();
-  context.widgets.field("candidates/filter", filter.text, ImGui::GetFontSize() * 5.5, "view no.");
+  const bool entered = numberField(context.widgets, filter.text);
   ImGui::SameLine();
   context.widgets.toggle("candidates/ranked only", "ranked", filter.ranked_only);
   tip("only views that are good enough, and segments that are not scored yet");
+  sameLineIfFits("reachable");
+  context.widgets.toggle("candidates/reachable only", "reachable", filter.reachable_only);
+  tip("without views that the robot was asked for and cannot take; those that it was not asked for stay");
   if (!table.hierarchical()) {
     const auto view = context.model.explainedView();
     const CandidateRow* row = view ? table.find(*view) : nullptr;
     bool only = filter.group.has_value();
-    ImGui::SameLine();
+    sameLineIfFits("segment");
     ImGui::BeginDisabled(!only && !row);
-    if (context.widgets.toggle("candidates/segment only", "its segment", only)) {
+    if (context.widgets.toggle("candidates/segment only", "segment", only)) {
       filter.group.reset();
       if (only && row) filter.group = row->group;
     }
@@ -275,6 +363,7 @@ void filterLine(PanelContext& context) {
     tip("only views of the selected view's segment");
   }
   table.filter(filter);
+  if (entered) selectFirst(context);
 }
 
 void countsLine(PanelContext& context) {
@@ -294,8 +383,10 @@ void candidatesPanel(PanelContext& context) {
   CandidateTable& table = context.candidates.table;
   table.show(context.model.recorded(), context.model.shown());
   if (table.rows().empty()) {
-    faintText(context.theme,
-              context.model.shown().empty() ? "No step is open." : "No views were evaluated here.");
+    if (context.model.shown().empty())
+      emptyText(context, "views", "No step is open.");
+    else
+      faintText(context.theme, "No views were evaluated here.");
     return;
   }
   filterLine(context);
