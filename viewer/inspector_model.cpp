@@ -41,7 +41,7 @@ bool InspectorModel::loading() const {
 }
 
 bool InspectorModel::idle() const {
-  return !player.playing() && !loading() && work_.running().empty();
+  return !player.playing() && !loading() && !work_.busy();
 }
 
 void InspectorModel::open(const std::filesystem::path& file) {

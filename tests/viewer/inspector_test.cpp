@@ -174,7 +174,7 @@ TEST_F(InspectorTest, DraggingOrbitsAndTheWheelComesNearer) {
   InspectorDriver driver;
   driver.open(run());
   const Eye before = *driver.inspector.preferences().eye;
-  driver.ui.drag("view", 0.4, 0.6, 0.6, 0.6);
+  driver.ui.drag("view", 0.9, 0.8, 0.7, 0.8);  // beside the legend
   driver.ui.settle();
   const Eye turned = *driver.inspector.preferences().eye;
   EXPECT_GT((turned.position - before.position).norm(), 0.1);
