@@ -58,7 +58,7 @@ void drawEntry(const LegendEntry& entry, const Theme& theme) {
   drawMark(*ImGui::GetWindowDrawList(), ImGui::GetCursorScreenPos(), size, entry, packed(theme.ink));
   ImGui::Dummy({size, size});
   ImGui::SameLine();
-  ImGui::TextWrapped("%s", entry.text.c_str());
+  wrappedText(entry.text);
 }
 
 /// Width of the widest line, if there is room for it.
@@ -73,13 +73,14 @@ float widthOf(const std::vector<const LayerNotes*>& notes) {
       widest =
           std::max({widest, kTextScale * ImGui::CalcTextSize(layer->scale->title.c_str()).x, kScale_em * em});
   }
-  return widest + 2.0f * ImGui::GetStyle().WindowPadding.x + 1.0f;
+  return widest + 2.0f * ImGui::GetStyle().WindowPadding.x +
+         0.5f * em;  // else rounding breaks the widest line
 }
 
 void drawNotes(const LayerNotes& notes, const Theme& theme) {
   for (const LegendEntry& entry : notes.legend) drawEntry(entry, theme);
   if (!notes.scale) return;
-  ImGui::TextWrapped("%s", notes.scale->title.c_str());
+  wrappedText(notes.scale->title);
   drawColorScale(*notes.scale, std::min(ImGui::GetFontSize() * kScale_em, ImGui::GetContentRegionAvail().x),
                  theme);
 }
