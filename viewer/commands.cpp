@@ -52,6 +52,12 @@ Command& Commands::add(Command command) {
   return all_.emplace_back(std::move(command));
 }
 
+void Commands::letRepeat(const std::string& id) {
+  const auto found = std::ranges::find(all_, id, &Command::id);
+  if (found == all_.end()) throw std::logic_error("there is no command " + id);
+  found->repeats = true;
+}
+
 const Command* Commands::find(const std::string& id) const {
   const auto found = std::ranges::find(all_, id, &Command::id);
   return found == all_.end() ? nullptr : &*found;

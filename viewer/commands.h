@@ -18,6 +18,7 @@ struct Command {
   std::function<void()> run;
   std::function<bool()> enabled = [] { return true; };
   std::function<bool()> checked = nullptr;  ///< set for switches: whether they are on
+  bool repeats = false;                     ///< while its key is held
 };
 
 /// All commands, in the order of the cheat sheet.
@@ -27,6 +28,8 @@ class Commands {
   /// taken.
   Command& add(Command command);
   const std::vector<Command>& all() const { return all_; }
+  /// The command runs again and again while its key is held. \throws std::logic_error if there is none.
+  void letRepeat(const std::string& id);
   const Command* find(const std::string& id) const;
   /// Runs it if it exists and is enabled; says whether it ran.
   bool run(const std::string& id) const;

@@ -48,6 +48,7 @@ struct Inspector::State {
   WindowActions actions();
   void addFileActions(WindowActions& a);
   void applyWish();
+  void swapDocuments();
   PanelContext panelContext(Document& d);
   PanelContext panelContext() { return panelContext(document()); }
   void keys();
@@ -67,6 +68,13 @@ void Inspector::State::applyWish() {
   commands.emplace(document().model, preferences, actions());
 }
 
+/// The same stage stays, with the layers that the other planner has for it.
+void Inspector::State::swapDocuments() {
+  if (!documents.other()) return;
+  preferences.view = documents.viewOf(*documents.other(), preferences.view);
+  documents.swap();
+}
+
 void Inspector::State::addFileActions(WindowActions& a) {
   const auto choose = [this](FileDialog::Mode mode, const char* name, auto then) {
     after_dialog = std::move(then);
@@ -83,7 +91,7 @@ void Inspector::State::addFileActions(WindowActions& a) {
   };
   a.close_beside = [this] { at_next_frame = [this] { documents.closeOther(); }; };
   a.has_beside = [this] { return documents.other() != nullptr; };
-  a.switch_run = [this] { at_next_frame = [this] { documents.swap(); }; };
+  a.switch_run = [this] { at_next_frame = [this] { swapDocuments(); }; };
 }
 
 WindowActions Inspector::State::actions() {
@@ -141,13 +149,15 @@ PanelContext Inspector::State::panelContext(Document& d) {
 /// Commands by their keys, unless something is being typed.
 void Inspector::State::keys() {
   const ImGuiIO& io = ImGui::GetIO();
-  if (io.WantTextInput || dialog.isOpen()) return;
+  if (io.WantTextInput || dialog.isOpen() || io.KeyAlt || io.KeySuper) return;
   for (const Command& command : commands->list().all()) {
     const Shortcut& keys = command.keys;
-    if (keys.key == Key::None || keys.ctrl != io.KeyCtrl || keys.shift != io.KeyShift) continue;
+    if (keys.key == Key::None || keys.ctrl != io.KeyCtrl) continue;
+    // A plus needs Shift on some keyboards.
+    if (keys.shift != io.KeyShift && keys.key != Key::Equal) continue;
     // Panels that are walked through with the keys keep the plain ones to themselves.
     if (preferences.keyboard_navigation && io.NavVisible && !keys.ctrl && keys.key < functionKey(1)) continue;
-    if (ImGui::IsKeyPressed(static_cast<int>(keys.key), true) && command.enabled()) {
+    if (ImGui::IsKeyPressed(static_cast<int>(keys.key), command.repeats) && command.enabled()) {
       command.run();
       return;
     }
@@ -180,7 +190,7 @@ void Inspector::State::viewWindow(Document& d, double left, double right, const 
     const ImVec2 at = ImGui::GetCursorScreenPos();
     PanelContext context = panelContext(d);
     const bool used = d.view.draw(context, documents.viewOf(d, preferences.view), pixel_scale);
-    if (used && &d != &document()) at_next_frame = [this] { documents.swap(); };
+    if (used && &d != &document()) at_next_frame = [this] { swapDocuments(); };
     if (d.model.shown().empty()) {
       const char* hint =
           d.model.loading() ? "loading…" : "Open a run with Ctrl+O, or drop a file here. F1 lists all keys.";
@@ -226,17 +236,17 @@ void Inspector::State::followModel(Document& d) {
     d.place_before = model.place();
     preferences.addRecent(model.file());
   }
-  if (&d != &document()) {  // who looks at one file is told of both
+  const bool is_active = &d == &document();
+  if (!is_active) {  // who looks at one file is told of both
     for (const Notice& notice : model.notices())
       document().model.say(notice.level, model.file().filename().string() + ": " + notice.text);
     model.dismissNotices();
-    return;
   }
   if (model.recorded().empty()) return;
   LayerSet& shown = preferences.view.layers;
   // The same stage of another planner, or of the closing scan, has other layers.
-  if (shown == LayerSet() || model.place().stage != d.place_before.stage || shown == d.stage_layers_before)
-    shown = d.stageLayers();
+  const bool other_stage = model.place().stage != d.place_before.stage || shown == d.stage_layers_before;
+  if (is_active && (shown == LayerSet() || other_stage)) shown = d.stageLayers();
   d.place_before = model.place();
   d.stage_layers_before = d.stageLayers();
 }

@@ -23,6 +23,10 @@ InspectorCommands::InspectorCommands(InspectorModel& model, Preferences& prefere
   addLayers();
   addWhatIf();
   addWindow();
+  for (const char* held :
+       {"timeline.next", "timeline.previous", "stage.next", "stage.previous", "view.left", "view.right turn",
+        "view.up", "view.down", "view.nearer", "view.farther", "selection.next", "selection.previous"})
+    commands_.letRepeat(held);
 }
 
 Command& InspectorCommands::add(std::string id, std::string group, std::string title, Shortcut keys,

@@ -24,12 +24,6 @@ bool standsAlone(const std::filesystem::path& file) {
   }
 }
 
-/// Where the stage of that name is; the first one if there is none.
-int stageNamed(const std::vector<StageView>& stages, const std::string& name) {
-  const auto found = std::ranges::find(stages, name, &StageView::name);
-  return found == stages.end() ? 0 : static_cast<int>(found - stages.begin());
-}
-
 }  // namespace
 
 Documents::Documents(std::function<std::unique_ptr<Document>(std::string name)> make)
@@ -41,7 +35,9 @@ void Documents::open(const std::vector<std::filesystem::path>& files) {
   std::size_t alone = 0;
   for (const auto& file : files) {
     const bool by_itself = files.size() > 1 && standsAlone(file);
-    if (!by_itself || alone == 0)
+    if (files.size() > 1 && !by_itself)
+      active().model.openNext(file);
+    else if (alone == 0)
       active().model.open(file);
     else if (alone < kMostFiles)
       openBeside(file);

@@ -23,6 +23,7 @@ const std::string kOpen = "open", kLoad = "load step", kPrepare = "prepare", kFo
 InspectorModel::InspectorModel(std::function<void()> wake) : work_(std::move(wake)), what_if_(work_) {
   work_.onFailure([this](const std::string& name, const std::string& message) {
     if (name == kOpen) opening_ = false;
+    if (name == kLoad) loadFailed();
     say(Notice::Level::Error, message);
   });
 }
@@ -37,11 +38,11 @@ void InspectorModel::say(Notice::Level level, std::string text) {
 }
 
 bool InspectorModel::loading() const {
-  return opening_ || (isRun() && loaded_ != place_.step);
+  return opening_ || (isRun() && !steps_.empty() && loaded_ != place_.step && !load_failed_);
 }
 
 bool InspectorModel::idle() const {
-  return !player.playing() && !loading() && !work_.busy();
+  return !player.playing() && !loading() && !work_.busy() && next_files_.empty();
 }
 
 void InspectorModel::open(const std::filesystem::path& file) {
@@ -79,8 +80,8 @@ BackgroundWork::Finish InspectorModel::opened(const std::filesystem::path& file,
       if (over_step)
         return [this, views = readViews(file), name] {
           opening_ = false;
-          what_if_.setStep(recorded_, nullptr);
           recorded_ = withViews(recorded_, views);
+          what_if_.setStep(recorded_, nullptr);
           ++revision_;
           say(Notice::Level::Info, std::to_string(views.size()) + " views of " + name + " over the step");
         };
@@ -156,6 +157,7 @@ void InspectorModel::previous() {
 
 void InspectorModel::load(int index) {
   const int step = steps_[index].step;
+  load_failed_ = false;
   work_.cancel(kPrepare);
   work_.cancel(kAhead);
   what_if_.suspend();  // the worker is wanted for the step
@@ -166,8 +168,18 @@ void InspectorModel::load(int index) {
   });
 }
 
+/// What was shown stays, and so does its place.
+void InspectorModel::loadFailed() {
+  load_failed_ = true;
+  player.pause();
+  if (loaded_ >= 0) place_.step = loaded_;
+  what_if_.resume();
+}
+
 void InspectorModel::show(StepData data, int index) {
+  const std::string stage = stages()[place_.stage].name;
   recorded_ = std::move(data);
+  place_.stage = stageNamed(stages(), stage);  // a run may change planners from step to step
   loaded_ = index;
   ++revision_;
   selected_view.reset();
@@ -189,6 +201,9 @@ void InspectorModel::show(StepData data, int index) {
 }
 
 void InspectorModel::follow() {
+  const auto running = work_.running();  // the news of a job that another one replaces would be lost
+  if (std::ranges::any_of(running, [](const BackgroundProgress& work) { return work.name == kFollow; }))
+    return;
   work_.start(kFollow, [this, session = session_, finished = finished_](const RunControl&) {
     const Followed news = session->refresh();
     Followed nothing;
@@ -238,6 +253,11 @@ bool InspectorModel::update(double elapsed_s) {
   if (session_ && !lost_ && since_follow_s_ >= (growing() ? kFollowEvery_s : kWatchEvery_s)) {
     since_follow_s_ = 0.0;
     follow();
+  }
+  if (!next_files_.empty() && !loading() && !work_.busy()) {
+    const std::filesystem::path next = next_files_.front();
+    next_files_.pop_front();
+    open(next);
   }
   for (Notice& notice : notices_) notice.age_s += elapsed_s;
   changed |= std::erase_if(notices_, [](const Notice& n) {

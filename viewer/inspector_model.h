@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -39,6 +40,8 @@ class InspectorModel {
   /// step, parameters to be tried, or a recipe. What is open stays until the new one is there; failures
   /// become notices.
   void open(const std::filesystem::path& file);
+  /// Opens a file once everything that is being opened is there: parameters for a run, say.
+  void openNext(const std::filesystem::path& file) { next_files_.push_back(file); }
   /// Reads the view of a recipe file, on any thread; without it recipes cannot be opened.
   using ReadRecipe = std::function<ViewSettings(const std::filesystem::path&)>;
   ReadRecipe read_recipe;
@@ -59,7 +62,7 @@ class InspectorModel {
   Player player;
   const std::vector<StepSummary>& steps() const { return steps_; }
   TimelinePlace place() const { return place_; }
-  /// The stages of the step that is asked for.
+  /// The stages of the step that is shown.
   const std::vector<StageView>& stages() const;
   /// Clamped to what there is. The step is loaded in the background; until it is there the last one is shown.
   void goTo(TimelinePlace place);
@@ -97,6 +100,7 @@ class InspectorModel {
   void takeOver(std::shared_ptr<RunSession> session, std::filesystem::path file);
   void show(StepData data, int index);
   void load(int index);
+  void loadFailed();
   void follow();
   void setSteps(std::vector<StepSummary> steps);
 
@@ -105,6 +109,8 @@ class InspectorModel {
   bool finished_ = true;
   bool lost_ = false;  ///< the file is gone or cannot be read any more
   bool opening_ = false;
+  bool load_failed_ = false;  ///< of the step that was asked for last
+  std::deque<std::filesystem::path> next_files_;
   std::vector<StepSummary> steps_;
   TimelinePlace place_;
   int loaded_ = -1;  ///< index of the step that recorded_ holds

@@ -76,7 +76,9 @@ std::string viewText(const Picked& picked, const StepData& step, const std::vect
 }
 
 std::string contourText(const Picked& picked, const StepData& step) {
-  const ContourPoint& point = step.record->contours->points[picked.id];
+  const auto& contours = step.record->contours;
+  if (!contours || picked.id >= contours->points.size()) return "";
+  const ContourPoint& point = contours->points[picked.id];
   std::string text = "contour point " + std::to_string(picked.id) + " at " + placeText(point.position_m);
   if (step.record->point_labels && picked.id < step.record->point_labels->size())
     text += ", of segment " + std::to_string((*step.record->point_labels)[picked.id]);

@@ -1,5 +1,6 @@
 #include "viewer/stage_views.h"
 
+#include <algorithm>
 #include <array>
 
 namespace vantage {
@@ -86,6 +87,11 @@ const Stages& stageViews(PlannerKind planner, StepContent content) {
       stagesOf(contourStages(true)), stagesOf(contourStages(false)), stagesOf(octreeStages())};
   const std::size_t kind = usesOctree(planner) ? 2 : planner == PlannerKind::Contour ? 0 : 1;
   return all[kind][static_cast<std::size_t>(content)];
+}
+
+int stageNamed(const Stages& stages, const std::string& name) {
+  const auto found = std::ranges::find(stages, name, &StageView::name);
+  return found == stages.end() ? 0 : static_cast<int>(found - stages.begin());
 }
 
 }  // namespace vantage

@@ -27,4 +27,7 @@ enum class StepContent {
 /// step is shown until something is chosen. Which stages there are depends on the planner alone.
 const std::vector<StageView>& stageViews(PlannerKind planner, StepContent content);
 
+/// Index of the stage of that name; 0, the overview, if there is none.
+int stageNamed(const std::vector<StageView>& stages, const std::string& name);
+
 }  // namespace vantage

@@ -68,8 +68,9 @@ class WhatIf {
   bool cancelled() const { return stopped_ || state_ == WhatIfState::Failed; }
   /// Does what was cancelled or failed.
   void runAgain();
-  /// The same without a word: another step is about to come.
+  /// Leaves the worker to another step that is about to come; state() stays. resume() if it does not come.
   void suspend();
+  void resume() { update(); }
   /// There is something to cancel.
   bool busy() const;
 

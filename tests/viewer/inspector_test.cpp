@@ -416,8 +416,12 @@ TEST_F(InspectorTest, ARunDeletedWhileOpenIsToldAndWhatIsLoadedStays) {
   driver.open(copy);
   std::filesystem::remove(copy);
   driver.ui.click("timeline/step 3");
-  for (int i = 0; i < 100; ++i) driver.ui.frame(0.1);
-  EXPECT_FALSE(driver.model().shown().empty());
+  driver.ui.settle();
+  EXPECT_NE(driver.notices().find("copy.vantage"), std::string::npos) << driver.notices();
+  ASSERT_FALSE(driver.model().shown().empty());
+  EXPECT_EQ(driver.model().shown().record->step, 1);
+  EXPECT_EQ(driver.model().place().step, 0) << "the timeline stands where the picture does";
+  EXPECT_FALSE(driver.model().loading());
 }
 
 TEST_F(InspectorTest, AConfigurationFileIsTriedOnTheStep) {

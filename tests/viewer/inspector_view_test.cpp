@@ -180,6 +180,73 @@ TEST_F(InspectorViewTest, TheButtonSavesAPictureAndSaysWhere) {
   EXPECT_THAT(driver.notices(), HasSubstr("ball-step1-view-2.png"));
 }
 
+TEST_F(InspectorViewTest, ARunThatChangesPlannersKeepsAStageThatBothHave) {
+  const std::string mixed = *folder_ / "mixed.vantage";
+  testing::recordRun(testing::ballScene(),
+                     {"exploration.steps=2", "exploration.planner=contour,hierarchical"}, mixed);
+  InspectorDriver driver;
+  driver.open(mixed);
+  for (const auto& [stage, found] :
+       {std::pair{"path", "path"}, {"scores", "scores"}, {"segments", "overview"}}) {
+    driver.ui.press({Key::Home});
+    driver.ui.settle();
+    driver.ui.click(std::string("timeline/stage ") + stage);
+    driver.ui.press({Key::Right});
+    driver.ui.settle();
+    ASSERT_EQ(driver.model().shown().record->step, 2);
+    const auto& stages = driver.model().stages();
+    ASSERT_LT(driver.model().place().stage, static_cast<int>(stages.size()));
+    EXPECT_EQ(stages[driver.model().place().stage].name, found);
+    EXPECT_EQ(driver.inspector.preferences().view.layers, stages[driver.model().place().stage].layers);
+  }
+}
+
+TEST_F(InspectorViewTest, ParametersThatAreOpenedWithARunWaitForIt) {
+  const std::string config = *folder_ / "with.toml";
+  test::writeFile(config, "[saliency]\nisolation_distance_m = 0.01\n");
+  for (const bool config_first : {false, true}) {
+    InspectorDriver driver;
+    if (config_first)
+      driver.inspector.open({config, run()});
+    else
+      driver.inspector.open({run(), config});
+    driver.ui.settle();
+    ASSERT_FALSE(driver.model().shown().empty());
+    EXPECT_DOUBLE_EQ(std::get<double>(driver.whatIf().edits().value("saliency.isolation_distance_m")), 0.01);
+  }
+}
+
+TEST_F(InspectorViewTest, ViewsOfATableAreShownOverTheStep) {
+  InspectorDriver driver;
+  driver.open(run());
+  const std::string table = *folder_ / "views.csv";
+  test::writeFile(table, "id,x_m,y_m,z_m,qx,qy,qz,qw\n0,0.5,0,0.5,0,0,0,1\n1,0.4,0.1,0.5,0,0,0,1\n");
+  driver.open(table);
+  EXPECT_THAT(driver.notices(), HasSubstr("2 views of views.csv"));
+  ASSERT_TRUE(driver.model().shown().record->positions);
+  EXPECT_EQ(driver.model().shown().record->positions->size(), 2u);
+}
+
+TEST_F(InspectorViewTest, AHeldKeyTurnsTheSceneButSavesOnePicture) {
+  InspectorDriver driver;
+  driver.open(run());
+  EXPECT_TRUE(driver.inspector.commands().find("view.left")->repeats);
+  EXPECT_FALSE(driver.inspector.commands().find("file.screenshot")->repeats);
+  EXPECT_FALSE(driver.inspector.commands().find("timeline.play")->repeats);
+}
+
+TEST_F(InspectorViewTest, TheEyeIsPlacedAfterTheShownStepWasReplaced) {
+  InspectorDriver driver;
+  driver.open(run());
+  driver.ui.click("tab/What if");
+  for (int i = 0; i < 5; ++i) {  // each drag makes another step of its own that is shown
+    driver.ui.drag("what-if/saliency.isolation_distance_m", 0.6 - 0.1 * i, 0.5, 0.5 - 0.1 * i, 0.5);
+    driver.ui.press({keyOf('R')});
+  }
+  driver.ui.settle();
+  EXPECT_TRUE(driver.inspector.preferences().eye->position.allFinite());
+}
+
 TEST_F(InspectorViewTest, ARunThatIsWholeAndThenDeletedIsTold) {
   const std::string copy = *folder_ / "copy.vantage";
   std::filesystem::copy_file(run(), copy, std::filesystem::copy_options::overwrite_existing);

@@ -111,6 +111,31 @@ TEST_F(SideBySide, WhatPlaysGoesOnWhenTheOtherOneBecomesActive) {
   EXPECT_EQ(driver.model().place().step, static_cast<int>(driver.model().steps().size()) - 1);
 }
 
+TEST_F(SideBySide, LayersThatWereSwitchedByHandStayWhenTheOtherOneBecomesActive) {
+  InspectorDriver driver;
+  openBoth(driver);
+  driver.ui.click("timeline/stage fused");
+  driver.ui.press({keyOf('6')});
+  driver.ui.settle();
+  const LayerSet mine = driver.inspector.preferences().view.layers;
+  ASSERT_TRUE(mine.has(Layer::Surface));
+  driver.ui.press({keyOf('X')});
+  driver.ui.settle();
+  EXPECT_EQ(driver.inspector.preferences().view.layers, mine);
+}
+
+TEST_F(SideBySide, AStageHasTheLayersOfItsOwnPlannerInEachView) {
+  InspectorDriver driver;
+  openBoth(driver);
+  const LayerSet contour = driver.inspector.preferences().view.layers;
+  driver.ui.press({keyOf('X')});
+  driver.ui.settle();
+  EXPECT_TRUE(driver.inspector.preferences().view.layers.has(Layer::ObjectBox));
+  driver.ui.press({keyOf('X')});
+  driver.ui.settle();
+  EXPECT_EQ(driver.inspector.preferences().view.layers, contour);
+}
+
 TEST_F(SideBySide, TheOtherFileIsClosedAndTheWholeRoomIsUsedAgain) {
   InspectorDriver driver;
   driver.open(left());

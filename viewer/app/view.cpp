@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <memory>
 
@@ -84,11 +85,17 @@ int openWindow(const GlobalOptions& global, const ViewOptions& options,
   Inspector inspector(window.context(), std::move(ports), std::move(preferences));
   if (!problem.empty()) inspector.model().say(Notice::Level::Warning, problem);
   inspector.open(files);
-  window.show(inspector);
+  std::exception_ptr error;  // what was set is kept whatever happens
+  try {
+    window.show(inspector);
+  } catch (...) {
+    error = std::current_exception();
+  }
   Preferences last = inspector.preferences();
   last.window_width = window.width();
   last.window_height = window.height();
   savePreferences(kept, last);
+  if (error) std::rethrow_exception(error);
   return 0;
 }
 
@@ -108,14 +115,16 @@ void addView(CLI::App& app, const GlobalOptions& global, Action& action) {
       ->add_option("files", options->files,
                    "Run, map, scene, cloud, recipe or configuration; two of them side by side")
       ->type_name("FILE");
-  command
-      ->add_option("--picture", options->picture,
-                   "Draw the window into a PNG file instead, without a display")
-      ->type_name("FILE.png");
+  CLI::Option* picture = command
+                             ->add_option("--picture", options->picture,
+                                          "Draw the window into a PNG file instead, without a display")
+                             ->type_name("FILE.png");
   command->add_option("--size", options->size, "Of that picture, pixels; default: 1280x800")
+      ->needs(picture)
       ->type_name("WxH");
   command->add_option("--seconds", options->seconds, "Close the window by itself after this time; 0 = never")
       ->check(CLI::Range(0.0, 1e6))
+      ->excludes(picture)
       ->type_name("S");
   command->footer("Example: vantage view tabletop.vantage   (F1 in the window lists all keys)");
   command->callback(

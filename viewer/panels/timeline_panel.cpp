@@ -78,7 +78,8 @@ class Strip {
 
   /// Index of the step under a horizontal place.
   int indexAt(float x) const {
-    return std::clamp(static_cast<int>((x - low_.x) / slot_), 0, static_cast<int>(steps_.size()) - 1);
+    const float last = static_cast<float>(steps_.size()) - 1.0f;
+    return static_cast<int>(std::clamp((x - low_.x) / slot_, 0.0f, last));
   }
 
   void nameSteps() {

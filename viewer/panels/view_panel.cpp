@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "viewer/captions.h"
 #include "viewer/layers/shapes.h"
@@ -35,6 +36,7 @@ void ViewPanel::update(PanelContext& context, ViewSettings wanted) {
   const StepData& shown = model.shown();
   if (shown.empty()) {
     has_frame_ = false;
+    hovered_.reset();
     return;
   }
   if (const auto view = model.explainedView()) wanted.style.view_id = static_cast<int>(*view);
@@ -42,8 +44,13 @@ void ViewPanel::update(PanelContext& context, ViewSettings wanted) {
   const double scale = pixel_scale_ * context.preferences.font_scale;
   const bool other_look = arranged_paper_ != context.theme.paper || scale != arranged_scale_;
   if (!new_data && !other_look && wanted == arranged_) return;
-  if (new_data || other_look) ++insets_revision_;
-  if (new_data) scene_.setFrame(shown.frame());
+  ++insets_revision_;
+  if (new_data) {
+    const StepData before = std::exchange(data_, shown);
+    scene_.setFrame(data_.frame());
+    hovered_.reset();
+    hovered_at_.setConstant(-1.0);
+  }
   revision_ = model.revision() + model.whatIf().revision();
   has_frame_ = true;
   arranged_ = wanted;
@@ -145,7 +152,11 @@ bool ViewPanel::draw(PanelContext& context, const ViewSettings& settings, double
     overlays(context, at.x, at.y);
     const ViewArea area{name_, at.x, at.y, end.x, end.y};
     const float legend = legendOverlay(context, area);
-    insets_.draw(context, viewport_, area, area.width() - legend, pixel_scale_, insets_revision_);
+    try {
+      insets_.draw(context, viewport_, area, area.width() - legend, pixel_scale_, insets_revision_);
+    } catch (const std::exception& e) {
+      problem_ = e.what();
+    }
   }
   if (!problem_.empty())
     draw.AddText({at.x + 12.0f, end.y - 2 * ImGui::GetFontSize()}, packed(context.theme.warning),
@@ -155,6 +166,12 @@ bool ViewPanel::draw(PanelContext& context, const ViewSettings& settings, double
 
 void ViewPanel::mouse(PanelContext& context, double left, double top) {
   const ImGuiIO& io = ImGui::GetIO();
+  context.preferences.eye = scene_.eye();
+  if (!ImGui::IsMousePosValid(&io.MousePos)) {  // the window lost the mouse, in a drag perhaps
+    viewport_.release();
+    hovered_.reset();
+    return;
+  }
   const Eigen::Vector2d at_px = pixel_scale_ * Eigen::Vector2d(io.MousePos.x - left, io.MousePos.y - top);
   const bool hovered = ImGui::IsItemHovered();
   if (hovered && !viewport_.dragging()) {

@@ -59,6 +59,7 @@ class ViewPanel {
   Viewport viewport_;
   double pixel_scale_ = 1.0;
   std::uint64_t revision_ = 0;
+  StepData data_;  ///< what the scene's frame refers to, which the model may have let go of
   bool has_frame_ = false, eye_placed_ = false;
   ViewSettings arranged_;
   Rgb arranged_paper_;
