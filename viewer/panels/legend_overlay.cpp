@@ -53,14 +53,6 @@ void drawMark(ImDrawList& draw, ImVec2 at, float size, const LegendEntry& entry,
   draw.AddRect(at, end, ink & IM_COL32(255, 255, 255, 90));
 }
 
-void drawEntry(const LegendEntry& entry, const Theme& theme) {
-  const float size = ImGui::GetFontSize() * kMark_em;
-  drawMark(*ImGui::GetWindowDrawList(), ImGui::GetCursorScreenPos(), size, entry, packed(theme.ink));
-  ImGui::Dummy({size, size});
-  ImGui::SameLine();
-  wrappedText(entry.text);
-}
-
 /// Width of the widest line, if there is room for it.
 float widthOf(const std::vector<const LayerNotes*>& notes) {
   const float em = ImGui::GetFontSize() * kTextScale;
@@ -78,7 +70,7 @@ float widthOf(const std::vector<const LayerNotes*>& notes) {
 }
 
 void drawNotes(const LayerNotes& notes, const Theme& theme) {
-  for (const LegendEntry& entry : notes.legend) drawEntry(entry, theme);
+  for (const LegendEntry& entry : notes.legend) drawLegendEntry(entry, theme);
   if (!notes.scale) return;
   wrappedText(notes.scale->title);
   drawColorScale(*notes.scale, std::min(ImGui::GetFontSize() * kScale_em, ImGui::GetContentRegionAvail().x),
@@ -106,6 +98,14 @@ void beginOverlay(const std::string& name, float left, float bottom, ImGuiWindow
 
 }  // namespace
 
+void drawLegendEntry(const LegendEntry& entry, const Theme& theme, float width_px) {
+  const float size = ImGui::GetFontSize() * kMark_em;
+  drawMark(*ImGui::GetWindowDrawList(), ImGui::GetCursorScreenPos(), size, entry, packed(theme.ink));
+  ImGui::Dummy({size, size});
+  ImGui::SameLine();
+  wrappedText(entry.text, width_px > 0.0f ? width_px - size - ImGui::GetStyle().ItemSpacing.x : 0.0);
+}
+
 void drawColorScale(const ColorScale& scale, float width, const Theme& theme) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float height = ImGui::GetFontSize() * 0.7f;
@@ -126,9 +126,10 @@ void drawColorScale(const ColorScale& scale, float width, const Theme& theme) {
   ImGui::Dummy({width, ImGui::GetFontSize()});
 }
 
-float legendOverlay(PanelContext& context, const ViewArea& area) {
+float legendOverlay(PanelContext& context, const ViewArea& area, const LayerNotes& more) {
   constexpr float kLargestShare = 0.45f;
   std::vector<const LayerNotes*> notes = context.scene.shownNotes();
+  notes.push_back(&more);
   std::erase_if(notes, [](const LayerNotes* n) { return n->legend.empty() && !n->scale; });
   if (notes.empty()) return 0.0f;
   const float left = area.left + kGap_px, bottom = area.bottom - kGap_px;

@@ -16,8 +16,13 @@ struct ViewArea {
   float height() const { return bottom - top; }
 };
 
-/// Legend of the layers that are shown, in the lower left corner. \return the width that it takes
-float legendOverlay(PanelContext& context, const ViewArea& area);
+/// Legend of the layers that are shown, in the lower left corner. \param more what else is to be explained
+/// \return the width that it takes
+float legendOverlay(PanelContext& context, const ViewArea& area, const LayerNotes& more);
+
+/// The sign of a legend entry and its words, at Dear ImGui's cursor. \param width_px of a line; 0: what is
+/// left
+void drawLegendEntry(const LegendEntry& entry, const Theme& theme, float width_px = 0.0f);
 
 /// A colour scale with its numbers, at Dear ImGui's cursor.
 void drawColorScale(const ColorScale& scale, float width, const Theme& theme);

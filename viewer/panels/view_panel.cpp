@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "viewer/captions.h"
-#include "viewer/layers/shapes.h"
 #include "viewer/panels/plot.h"
+#include "viewer/panels/scene_marks.h"
 #include "viewer/pick_text.h"
 #include "viewer/ui_host.h"
 
@@ -149,9 +149,9 @@ bool ViewPanel::draw(PanelContext& context, const ViewSettings& settings, double
   const bool used = ImGui::IsItemActive();
   if (has_frame_) {
     mouse(context, at.x, at.y);
-    overlays(context, at.x, at.y);
+    const LayerNotes notes = marks(context, at.x, at.y);
     const ViewArea area{name_, at.x, at.y, end.x, end.y};
-    const float legend = legendOverlay(context, area);
+    const float legend = legendOverlay(context, area, notes);
     try {
       insets_.draw(context, viewport_, area, area.width() - legend, pixel_scale_, insets_revision_);
     } catch (const std::exception& e) {
@@ -237,85 +237,25 @@ void ViewPanel::lookAt(const Eigen::Vector3d& p_world) {
   setEye(eye);
 }
 
-struct ViewPanel::Overlay {
-  ImDrawList& draw;
-  Eye eye;
-  PictureSize size;
-  double left, top, pixel_scale;
-
-  std::optional<ImVec2> at(const Eigen::Vector3d& p_world) const {
-    const auto px = pixelOf(eye, p_world, size);
-    if (!px) return std::nullopt;
-    return ImVec2(static_cast<float>(left + px->x() / pixel_scale),
-                  static_cast<float>(top + px->y() / pixel_scale));
-  }
-  void line(const Eigen::Vector3d& a, const Eigen::Vector3d& b, ImU32 color, float width) const {
-    const auto from = at(a), to = at(b);
-    if (from && to) draw.AddLine(*from, *to, color, width);
-  }
-  void arrow(const Eigen::Vector3d& a, const Eigen::Vector3d& b, ImU32 color) const {
-    const auto from = at(a), to = at(b);
-    if (!from || !to) return;
-    const float dx = to->x - from->x, dy = to->y - from->y, length = std::hypot(dx, dy);
-    if (length < 12.0f) return;
-    const float u = dx / length, v = dy / length;
-    const ImVec2 neck{to->x - 12.0f * u, to->y - 12.0f * v};
-    draw.AddLine(*from, neck, color, 3.0f);
-    draw.AddTriangleFilled(*to, {neck.x - 6.0f * v, neck.y + 6.0f * u},
-                           {neck.x + 6.0f * v, neck.y - 6.0f * u}, color);
-  }
-  void frustum(const PinholeCamera& camera, const Pose& pose, ImU32 color) const {
-    constexpr double kLength_m = 0.2;
-    const FrustumCorners corners = frustumCorners(camera, pose, kLength_m);
-    for (int i = 0; i < 4; ++i) {
-      line(corners.apex, corners.image[i], color, 2.5f);
-      line(corners.image[i], corners.image[(i + 1) % 4], color, 2.5f);
-    }
-  }
-  void text(const Eigen::Vector3d& p_world, const std::string& text, ImU32 ink, ImU32 paper) const {
-    const auto place = at(p_world);
-    if (!place) return;
-    const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
-    const ImVec2 low{place->x + 8.0f, place->y - extent.y - 4.0f};
-    draw.AddRectFilled({low.x - 4.0f, low.y - 2.0f}, {low.x + extent.x + 4.0f, low.y + extent.y + 2.0f},
-                       paper);
-    draw.AddText(low, ink, text.c_str());
-  }
-};
-
-void ViewPanel::overlays(PanelContext& context, double left, double top) {
-  const Overlay overlay{*ImGui::GetWindowDrawList(), scene_.eye(), viewport_.size(), left, top, pixel_scale_};
+/// Choices, and the distance that is measured. \return what stands for what
+LayerNotes ViewPanel::marks(PanelContext& context, double left, double top) {
+  const SceneMarks marks{
+      *ImGui::GetWindowDrawList(), scene_.eye(), viewport_.size(), left, top, pixel_scale_};
   const Theme& theme = context.theme;
-  const SceneFrame frame = context.model.shown().frame();
-  overlay.draw.PushClipRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), true);
-  // From the view that the run chose to the one that would be chosen now.
-  const StepData& recorded = context.model.recorded();
-  if (recorded.record->hasView() && frame.record.hasView()) {
-    const ChosenView &then = *recorded.record->chosen(), &now = *frame.record.chosen();
-    if (!then.T_world_camera.isApprox(now.T_world_camera)) {
-      overlay.frustum(viewCamera(recorded.frame()), then.T_world_camera, packed(theme.faint));
-      overlay.arrow(then.T_world_camera.translation(), now.T_world_camera.translation(),
-                    packed(theme.accent));
-      overlay.text(now.T_world_camera.translation(), "now first", packed(theme.ink),
-                   packed(theme.panel, 0.85));
-    }
-  }
-  if (const auto view = context.model.selected_view) {
-    if (const auto pose = poseOfCandidate(frame, *view))
-      overlay.frustum(viewCamera(frame), *pose, packed(theme.accent));
-  }
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  marks.draw.PushClipRect(low, high, true);
+  const LayerNotes notes = markChoices(context, marks);
   for (const Eigen::Vector3d& end : measured_)
-    if (const auto at = overlay.at(end)) overlay.draw.AddCircleFilled(*at, 4.0f, packed(theme.chosen));
+    if (const auto at = marks.at(end)) marks.draw.AddCircleFilled(*at, 4.0f, packed(theme.chosen));
   if (measured_.size() == 2) {
-    overlay.line(measured_[0], measured_[1], packed(theme.chosen), 2.0f);
-    overlay.text(0.5 * (measured_[0] + measured_[1]), lengthText((measured_[1] - measured_[0]).norm()),
-                 packed(theme.ink), packed(theme.panel, 0.9));
+    marks.line(measured_[0], measured_[1], packed(theme.chosen), 2.0f);
+    marks.text(0.5 * (measured_[0] + measured_[1]), lengthText((measured_[1] - measured_[0]).norm()), theme);
   } else if (measuring_) {
-    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-    overlay.draw.AddText({low.x + 12.0f, high.y - 2.0f * ImGui::GetFontSize()}, packed(theme.accent),
-                         measured_.empty() ? "measuring: click the first point" : "click the second point");
+    marks.draw.AddText({low.x + 12.0f, low.y + 12.0f}, packed(theme.accent),
+                       measured_.empty() ? "measuring: click the first point" : "click the second point");
   }
-  overlay.draw.PopClipRect();
+  marks.draw.PopClipRect();
+  return notes;
 }
 
 }  // namespace vantage

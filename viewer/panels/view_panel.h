@@ -45,14 +45,11 @@ class ViewPanel {
  private:
   /// Brings the scene to model and settings.
   void update(PanelContext& context, ViewSettings wanted);
-  /// Draws in the view's own pixels over the picture.
-  struct Overlay;
-
   void mouse(PanelContext& context, double left, double top);
   void hover(PanelContext& context, const Eigen::Vector2d& at_px);
   void click(PanelContext& context);
   void lookAt(const Eigen::Vector3d& p_world);
-  void overlays(PanelContext& context, double left, double top);
+  LayerNotes marks(PanelContext& context, double left, double top);
 
   std::string name_;
   Scene& scene_;
