@@ -123,6 +123,9 @@ TEST_F(FileDialogTest, ADoubleClickOpensAFileAndEntersAFolder) {
 }
 
 TEST_F(FileDialogTest, TheKeyboardAloneIsEnough) {
+  const std::string longer = "a run with a long name.vantage";  // than strings hold without an allocation
+  ASSERT_EQ(longer.size(), 30u);
+  writeFile(folder_ / longer, "x");
   open();
   press(Key::Down);  // data
   press(Key::Enter);
@@ -132,9 +135,15 @@ TEST_F(FileDialogTest, TheKeyboardAloneIsEnough) {
   press(Key::Down);
   press(Key::Down);
   press(Key::Down);
+  press(Key::Down);
   press(Key::Up);
   press(Key::Enter);
   EXPECT_EQ(result_, fs::path(folder_ / "a.vti"));
+  open();
+  press(Key::Down);
+  press(Key::Down);
+  press(Key::Enter);
+  EXPECT_EQ(result_, fs::path(folder_ / longer));
 }
 
 TEST_F(FileDialogTest, EscapeAndCancelCloseWithoutAFile) {

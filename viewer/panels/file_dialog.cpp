@@ -58,6 +58,11 @@ bool before(const FileDialog::Entry& a, const FileDialog::Entry& b) {
   return !std::ranges::lexicographical_compare(b.name, a.name, less) && a.name < b.name;
 }
 
+/// As it is listed and typed: folders end in /.
+std::string nameOf(const FileDialog::Entry& entry) {
+  return entry.name + (entry.folder ? "/" : "");
+}
+
 /// What a folder holds. \param error why it cannot be read
 std::vector<FileDialog::Entry> entriesOf(const fs::path& folder, std::error_code& error) {
   std::vector<FileDialog::Entry> all;
@@ -76,7 +81,9 @@ std::vector<FileDialog::Entry> entriesOf(const fs::path& folder, std::error_code
 /// What the callbacks of the field work on.
 struct FieldKeys {
   std::function<std::string(const std::string&)> complete;
-  std::function<std::string(int)> step;  ///< down or up in the list; gives the name there
+  /// Down or up in the list; gives the name there, or nothing if the list is empty. The field's own text
+  /// must not change before the field is done.
+  std::function<std::optional<std::string>(int)> step;
 };
 
 void replaceText(ImGuiInputTextCallbackData& data, const std::string& text) {
@@ -89,7 +96,7 @@ int onFieldKey(ImGuiInputTextCallbackData* data) {
   if (data->EventFlag == ImGuiInputTextFlags_CallbackCompletion)
     replaceText(*data, field.complete(data->Buf));
   if (data->EventFlag == ImGuiInputTextFlags_CallbackHistory)
-    replaceText(*data, field.step(data->EventKey == ImGuiKey_UpArrow ? -1 : 1));
+    if (const auto name = field.step(data->EventKey == ImGuiKey_UpArrow ? -1 : 1)) replaceText(*data, *name);
   return 0;
 }
 
@@ -113,7 +120,7 @@ std::string completedPath(const fs::path& folder, const std::string& typed) {
   std::optional<std::string> common;
   for (const FileDialog::Entry& entry : entriesOf(typedPath(folder, lead), error)) {
     if (!entry.name.starts_with(begun) || (isHidden(entry.name) && !isHidden(begun))) continue;
-    const std::string name = entry.name + (entry.folder ? "/" : "");
+    const std::string name = nameOf(entry);
     if (!common) {
       common = name;
     } else {
@@ -167,13 +174,17 @@ bool FileDialog::isWanted(const std::string& name) const {
 }
 
 bool FileDialog::folderIsChosen() const {
-  return chosen_ >= 0 && entries_[chosen_].folder && name_ == entries_[chosen_].name + "/";
+  return chosen_ >= 0 && entries_[chosen_].folder && name_ == nameOf(entries_[chosen_]);
+}
+
+int FileDialog::listedIndex(int index) const {
+  return std::clamp(index, 0, static_cast<int>(entries_.size()) - 1);
 }
 
 void FileDialog::choose(int index) {
   if (entries_.empty()) return;
-  chosen_ = std::clamp(index, 0, static_cast<int>(entries_.size()) - 1);
-  name_ = entries_[chosen_].name + (entries_[chosen_].folder ? "/" : "");
+  chosen_ = listedIndex(index);
+  name_ = nameOf(entries_[chosen_]);
   if (!entries_[chosen_].folder) file_ = name_;
   problem_.clear();
   scroll_ = true;
@@ -235,8 +246,7 @@ void FileDialog::drawEntries(Widgets& widgets) {
     while (clipper.Step())
       for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
         const Entry& entry = entries_[i];
-        const std::string label = entry.name + (entry.folder ? "/" : "");
-        if (ImGui::Selectable(label.c_str(), i == chosen_, ImGuiSelectableFlags_AllowDoubleClick)) {
+        if (ImGui::Selectable(nameOf(entry).c_str(), i == chosen_, ImGuiSelectableFlags_AllowDoubleClick)) {
           choose(i);
           scroll_ = false;
           if (ImGui::IsMouseDoubleClicked(0)) entered = i;
@@ -258,10 +268,12 @@ void FileDialog::drawEntries(Widgets& widgets) {
 }
 
 void FileDialog::drawField(Widgets& widgets) {
+  std::optional<int> stepped;
   FieldKeys field{[this](const std::string& typed) { return completedPath(folder_, typed); },
-                  [this](int step) {
-                    choose(chosen_ + step);
-                    return name_;
+                  [&](int step) -> std::optional<std::string> {
+                    if (entries_.empty()) return std::nullopt;
+                    stepped = listedIndex(chosen_ + step);
+                    return nameOf(entries_[*stepped]);
                   }};
   const bool was_empty = name_.empty();
   if (focus_field_) ImGui::SetKeyboardFocusHere();
@@ -272,6 +284,7 @@ void FileDialog::drawField(Widgets& widgets) {
       ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion |
           ImGuiInputTextFlags_CallbackHistory,
       onFieldKey, &field);
+  if (stepped) choose(*stepped);
   if (ImGui::IsItemEdited() && !folderIsChosen()) file_ = fs::path(name_).filename().string();
   typing_ = ImGui::IsItemActive() && !(was_empty && name_.empty());
   widgets.note("file/name");

@@ -51,6 +51,7 @@ class FileDialog {
   bool folderIsChosen() const;
   std::string question() const;
   float footerHeight() const;
+  int listedIndex(int index) const;  ///< the nearest one that is listed
   void choose(int index);
   void accept();
   void drawPlace(Widgets& widgets);
