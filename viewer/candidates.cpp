@@ -155,6 +155,11 @@ RankChange changeTo(std::optional<std::uint32_t> rank, std::optional<std::uint32
   return *rank < *had ? RankChange{Kind::Up, *had - *rank} : RankChange{Kind::Down, *rank - *had};
 }
 
+/// Contour planners: it passed what a view must pass to have a place.
+bool isGoodEnough(const CandidateRow& row) {
+  return row.verdict != ViewVerdict::BelowThreshold && row.verdict != ViewVerdict::TakenBefore;
+}
+
 }  // namespace
 
 std::vector<CandidateRow> candidateRows(const SceneFrame& frame) {
@@ -176,8 +181,12 @@ void compareRanks(std::vector<CandidateRow>& current, const std::vector<Candidat
   had.reserve(recorded.size());
   for (const CandidateRow& row : recorded)
     if (row.rank) had.emplace(row.id, *row.rank);
+  bool pending_before = false;
   for (CandidateRow& row : current) {
-    if (row.pending()) continue;
+    pending_before |= row.pending();
+    // Its place is not known before that segment is scored.
+    const bool waits = !row.rank && pending_before && isGoodEnough(row);
+    if (row.pending() || waits) continue;
     const auto found = had.find(row.id);
     row.change = changeTo(row.rank, found == had.end() ? std::nullopt : std::optional(found->second),
                           static_cast<std::uint32_t>(had.size()));

@@ -76,7 +76,9 @@ std::vector<CandidateRow> candidateRows(const SceneFrame& frame);
 /// The two steps ask about the same candidates, so that ids mean the same.
 bool sameCandidates(const SceneFrame& a, const SceneFrame& b);
 
-/// Fills `change` of the current rows with what is different from the recorded ones of the same candidates.
+/// Fills `change` of the current rows with what is different from the recorded ones of the same candidates;
+/// None for those that have no place only because a segment before their own is not scored yet.
+/// \param current in the order of candidateRows()
 void compareRanks(std::vector<CandidateRow>& current, const std::vector<CandidateRow>& recorded);
 
 /// What became of it in a word or two, for a narrow column: "chosen", "behind", "in collision".

@@ -183,6 +183,27 @@ TEST(RankChanges, TellUpDownNewAndGone) {
   EXPECT_EQ(after[5].change, (RankChange{Kind::None, 0})) << "its old place may have been the same";
 }
 
+TEST(RankChanges, AreNotKnownBehindASegmentThatIsNotScored) {
+  const auto row = [](std::uint32_t id, std::optional<std::uint32_t> rank, ViewVerdict verdict) {
+    CandidateRow r;
+    r.id = id;
+    r.rank = rank;
+    r.verdict = verdict;
+    return r;
+  };
+  using enum ViewVerdict;
+  const std::vector<CandidateRow> before = {row(1, 1, Chosen), row(2, 2, Eligible), row(3, 3, Unreachable),
+                                            row(4, 4, Eligible), row(5, 5, Eligible)};
+  std::vector<CandidateRow> after = {row(1, 1, Unreachable), row(0, {}, Pending),
+                                     row(2, {}, Waiting),    row(3, {}, Unreachable),
+                                     row(4, {}, Waiting),    row(5, {}, BelowThreshold)};
+  compareRanks(after, before);
+  using Kind = RankChange::Kind;
+  EXPECT_EQ(after[0].change.kind, Kind::Same);
+  for (const std::size_t waits : {2, 3, 4}) EXPECT_EQ(after[waits].change.kind, Kind::None) << waits;
+  EXPECT_EQ(after[5].change.kind, Kind::Gone) << "too little gain wherever it stands";
+}
+
 TEST(RankChanges, AreNoneWithoutAChange) {
   const test::SyntheticRun run = test::makeSyntheticRun();
   std::vector<CandidateRow> rows = candidateRows(run.frame());
