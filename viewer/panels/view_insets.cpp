@@ -95,7 +95,8 @@ struct ViewInsets::State {
 ViewInsets::ViewInsets() : state_(std::make_unique<State>()) {}
 ViewInsets::~ViewInsets() = default;
 
-/// The map through the explained view, with what it counts and what ends its rays.
+/// The map through the explained view, with what it counts and what ends its rays; through the one before
+/// until its picture is there.
 void ViewInsets::State::drawView(PanelContext& context, Viewport& viewport, Column& column,
                                  double pixel_scale, std::uint64_t revision) {
   const auto id = context.model.explainedView();
@@ -107,13 +108,15 @@ void ViewInsets::State::drawView(PanelContext& context, Viewport& viewport, Colu
   const float height = heightOf(column.width(), camera.width, camera.height);
   if (!column.hasRoom(height)) return;
   const int width_px = static_cast<int>(std::lround(column.width() * pixel_scale));
-  if (!view.isOf(revision, *id, width_px)) {
+  // It takes longer than a rough picture of the scene, and waits with the full one.
+  if (viewport.settled() && !view.isOf(revision, *id, width_px)) {
     static const LayerSet kLayers = {Layer::Surface, Layer::Occupied, Layer::HitVoxels, Layer::Occluders};
     vtkRenderer* const renderers[] = {context.scene.inset(eyeOfView(camera, *pose, kNear_m), kLayers)};
     view.set(viewport.picture(renderers, width_px, static_cast<int>(std::lround(height * pixel_scale))),
              revision, *id, width_px);
   }
-  column.add("inset", "view " + std::to_string(*id) + ": predicted to see", view, height, nullptr,
+  if (!view.filled) return;
+  column.add("inset", "view " + std::to_string(view.what) + ": predicted to see", view, height, nullptr,
              context.theme.chosen);
 }
 
