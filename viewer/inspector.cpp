@@ -357,4 +357,9 @@ std::uint64_t Inspector::picturesRendered() const {
   return count;
 }
 
+bool Inspector::pictureIsFull() const {
+  return std::ranges::all_of(state_->documents.all(),
+                             [](const auto& d) { return d->view.viewport().settled(); });
+}
+
 }  // namespace vantage

@@ -60,6 +60,8 @@ class Inspector {
   std::optional<std::string> error() const;
   /// Pictures of the 3-D view that were rendered so far.
   std::uint64_t picturesRendered() const;
+  /// The last of each file is a full one of the scene as it is.
+  bool pictureIsFull() const;
 
  private:
   struct State;
