@@ -35,7 +35,9 @@ void ViewPanel::update(PanelContext& context, ViewSettings wanted) {
   const InspectorModel& model = context.model;
   const StepData& shown = model.shown();
   if (shown.empty()) {
+    if (has_frame_) scene_.forget();
     has_frame_ = false;
+    data_ = {};
     hovered_.reset();
     return;
   }
