@@ -154,7 +154,8 @@ std::string utilityReason(const ExplainedView& view) {
       return takenText(config.executed_distance_m, config.executed_angle_rad);
     case ViewVerdict::NotFree:
       return "Rejected: the position is not free: the robot's cube of " + lengthText(config.body_m) +
-             " touches something occupied or unknown there, or the sensor stands in it.";
+             " touches something occupied or unknown there, or the sensor itself would stand in an occupied "
+             "voxel.";
     case ViewVerdict::LittleSurface:
       return registrationReason(view, config);
     case ViewVerdict::Stopped:

@@ -18,12 +18,22 @@ constexpr std::size_t kMostNotices = 4;
 const std::string kOpen = "open", kLoad = "load step", kPrepare = "prepare", kFollow = "follow",
                   kAhead = "read ahead";
 
+/// What of a configuration file planning again does not ask for; empty for none.
+std::string leftOut(const std::vector<std::string>& keys) {
+  constexpr std::size_t kNamed = 6;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(keys.size(), kNamed); ++i) text += (i ? ", " : "") + keys[i];
+  if (keys.size() > kNamed) text += " and " + std::to_string(keys.size() - kNamed) + " more";
+  return text.empty() ? "" : "; left as in the run, since planning again does not ask for it: " + text;
+}
+
 }  // namespace
 
 InspectorModel::InspectorModel(std::function<void()> wake) : work_(std::move(wake)), what_if_(work_) {
   work_.onFailure([this](const std::string& name, const std::string& message) {
     if (name == kOpen) opening_ = false;
     if (name == kLoad) loadFailed();
+    if (name == kPrepare) what_if_.refuse(message);
     say(Notice::Level::Error, message);
   });
 }
@@ -66,8 +76,9 @@ BackgroundWork::Finish InspectorModel::opened(const std::filesystem::path& file,
       return [this, text = readTextFile(file), file, name] {
         opening_ = false;
         if (!what_if_.ready()) throw InputError(name, "holds parameters; open a run to try them on first");
-        what_if_.load(text, file.string());
-        say(Notice::Level::Info, "the parameters of " + name + " are tried");
+        const std::vector<std::string> others = what_if_.load(text, file.string());
+        say(others.empty() ? Notice::Level::Info : Notice::Level::Warning,
+            "the parameters of " + name + " are tried" + leftOut(others));
       };
     case FileKind::Recipe:
       if (!recipe) throw InputError(name, "is a recipe, which cannot be read here");
@@ -82,6 +93,7 @@ BackgroundWork::Finish InspectorModel::opened(const std::filesystem::path& file,
           opening_ = false;
           recorded_ = withViews(recorded_, views);
           what_if_.setStep(recorded_, nullptr);
+          what_if_.refuse("other views are shown over the step");
           ++revision_;
           say(Notice::Level::Info, std::to_string(views.size()) + " views of " + name + " over the step");
         };

@@ -53,8 +53,9 @@ ParameterGroup thresholds(bool segments) {
     list.push_back(plain("saliency.use_roundness", "roundness counts"));
   }
   list.push_back(plain("gain.exclude_executed", "leave out views taken before"));
-  list.push_back(slider("gain.executed_distance_m", "", "as near as", "cm", kCm, 0.0, 0.5, 0.01));
-  list.push_back(slider("gain.executed_angle_deg", "", "and turned by", "deg", 1.0, 0.0, 90.0, 1.0));
+  list.push_back(
+      slider("gain.executed_distance_m", "", "distance to a taken view", "cm", kCm, 0.0, 0.5, 0.01));
+  list.push_back(slider("gain.executed_angle_deg", "", "angle to a taken view", "deg", 1.0, 0.0, 90.0, 1.0));
   return group;
 }
 
@@ -95,9 +96,9 @@ std::vector<ParameterGroup> octreeParameters(bool coarse) {
   ParameterGroup thresholds{
       "Thresholds (re-rank at once)",
       {slider("utility.min_occupied", "h_oc", "known surface, at least", "rays", 1.0, 0, 10000, 10),
-       slider("utility.min_overlap", "", "or its share", "%", 0.01, 0, 1, 0.01),
+       slider("utility.min_overlap", "", "least share of known surface", "%", 0.01, 0, 1, 0.01),
        slider("utility.stop_gain", "h_stop", "unknown in view, at least", "rays", 1.0, 0, 10000, 10),
-       slider("utility.rotation_weight_m_per_rad", "w", "a radian of turning is", "m", 1.0, 0, 5, 0.05)}};
+       slider("utility.rotation_weight_m_per_rad", "w", "cost of turning one radian", "m", 1.0, 0, 5, 0.05)}};
   ParameterGroup rays{
       "Rays",
       {slider("rays.horizontal_fov_deg", "a_h", "aperture, horizontal", "deg", 1.0, 10, 120, 1),
@@ -117,9 +118,17 @@ std::vector<ParameterGroup> octreeParameters(bool coarse) {
        slider("candidates.workspace_views", "", "views in the workspace", "", 1.0, 0, 5000, 100, 1500),
        slider("utility.body_m", "RBB", "robot's cube", "cm", kCm, 0, 0.3, 0.01),
        plain("utility.exclude_executed", "leave out views taken before"),
-       slider("utility.executed_distance_m", "", "as near as", "cm", kCm, 0, 0.5, 0.01),
-       slider("utility.executed_angle_deg", "", "and turned by", "deg", 1.0, 0, 90, 1)}};
+       slider("utility.executed_distance_m", "", "distance to a taken view", "cm", kCm, 0, 0.5, 0.01),
+       slider("utility.executed_angle_deg", "", "angle to a taken view", "deg", 1.0, 0, 90, 1)}};
   return {std::move(thresholds), std::move(rays), std::move(candidates)};
+}
+
+/// Null if the planner does not have it.
+const Parameter* parameterOf(PlannerKind planner, const std::string& key) {
+  for (const ParameterGroup& group : parametersOf(planner))
+    for (const Parameter& parameter : group.parameters)
+      if (parameter.key == key) return &parameter;
+  return nullptr;
 }
 
 }  // namespace
@@ -142,12 +151,13 @@ const std::vector<ParameterGroup>& parametersOf(PlannerKind planner) {
   return contour;
 }
 
+bool isParameterOf(PlannerKind planner, const std::string& key) {
+  return parameterOf(planner, key) != nullptr;
+}
+
 const Parameter* parameterOf(const std::string& key) {
-  for (const PlannerKind planner : kPlannerKinds) {
-    for (const ParameterGroup& group : parametersOf(planner))
-      for (const Parameter& parameter : group.parameters)
-        if (parameter.key == key) return &parameter;
-  }
+  for (const PlannerKind planner : kPlannerKinds)
+    if (const Parameter* parameter = parameterOf(planner, key)) return parameter;
   return nullptr;
 }
 

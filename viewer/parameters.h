@@ -34,6 +34,9 @@ struct ParameterGroup {
 /// poses as candidates.
 const std::vector<ParameterGroup>& parametersOf(PlannerKind planner);
 
+/// The planner has it.
+bool isParameterOf(PlannerKind planner, const std::string& key);
+
 /// Null if no planner has it.
 const Parameter* parameterOf(const std::string& key);
 

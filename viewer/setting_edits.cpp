@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "viewer/parameter_text.h"
+#include "viewer/parameters.h"
 
 namespace vantage {
 namespace {
@@ -63,15 +64,30 @@ bool SettingEdits::apply(const std::string& key, const config::Value& value) {
   return true;
 }
 
-void SettingEdits::remember(Edit edit) {
+void SettingEdits::remember(Change change) {
   edits_.resize(done_);
-  if (open_ && done_ > 0 && edits_.back().key == edit.key) {
-    edits_.back().after = std::move(edit.after);
+  if (open_ && done_ > 0 && edits_.back().front().key == change.key) {
+    edits_.back().front().after = std::move(change.after);
   } else {
-    edits_.push_back(std::move(edit));
+    edits_.push_back({std::move(change)});
     ++done_;
   }
   open_ = true;
+}
+
+bool SettingEdits::changeTo(const Settings& settings) {
+  finishEdit();
+  Edit edit;
+  for (const config::Field& field : config::fields()) {
+    const config::Value before = field.get(wanted_), after = field.get(settings);
+    if (before != after) edit.push_back({field.key, before, after});
+  }
+  if (edit.empty()) return false;
+  for (const Change& change : edit) fieldOf(change.key).set(wanted_, change.after);
+  edits_.resize(done_);
+  edits_.push_back(std::move(edit));
+  ++done_;
+  return true;
 }
 
 bool SettingEdits::set(const std::string& key, const config::Value& value) {
@@ -113,26 +129,14 @@ bool SettingEdits::reset(const std::string& key) {
 }
 
 bool SettingEdits::resetAll() {
-  finishEdit();
   errors_.clear();
-  bool any = false;
-  const Settings recorded = recorded_;
-  for (const config::Field& field : config::fields()) {
-    const config::Value before = field.get(wanted_), after = field.get(recorded);
-    if (before == after) continue;
-    field.set(wanted_, after);  // together they are valid, one by one they need not be
-    remember({field.key, before, after});
-    finishEdit();
-    any = true;
-  }
-  return any;
+  return changeTo(recorded_);
 }
 
 bool SettingEdits::undo() {
   if (!canUndo()) return false;
   finishEdit();
-  const Edit& edit = edits_[--done_];
-  fieldOf(edit.key).set(wanted_, edit.before);
+  for (const Change& change : edits_[--done_]) fieldOf(change.key).set(wanted_, change.before);
   errors_.clear();
   return true;
 }
@@ -140,8 +144,7 @@ bool SettingEdits::undo() {
 bool SettingEdits::redo() {
   if (!canRedo()) return false;
   finishEdit();
-  const Edit& edit = edits_[done_++];
-  fieldOf(edit.key).set(wanted_, edit.after);
+  for (const Change& change : edits_[done_++]) fieldOf(change.key).set(wanted_, change.after);
   errors_.clear();
   return true;
 }
@@ -167,18 +170,22 @@ std::string SettingEdits::toml() const {
   return text.empty() ? "# no parameter differs from the run's\n" : text;
 }
 
-void SettingEdits::load(const std::string& toml, const std::string& origin) {
-  Settings tried = wanted_;
-  applyToml(tried, toml, origin);
-  tried.validate();
-  finishEdit();
+std::vector<std::string> SettingEdits::load(const std::string& toml, const std::string& origin,
+                                            PlannerKind planner) {
+  Settings set = wanted_, tried = wanted_;
+  applyToml(set, toml, origin);
+  std::vector<std::string> others;
   for (const config::Field& field : config::fields()) {
-    const config::Value before = field.get(wanted_), after = field.get(tried);
-    if (before == after) continue;
-    field.set(wanted_, after);
-    remember({field.key, before, after});
-    finishEdit();
+    const config::Value value = field.get(set);
+    if (value == field.get(wanted_)) continue;
+    if (isParameterOf(planner, field.key))
+      field.set(tried, value);
+    else
+      others.push_back(field.key);
   }
+  tried.validate();
+  changeTo(tried);
+  return others;
 }
 
 }  // namespace vantage

@@ -4,12 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "core/exploration/planner_kind.h"
 #include "io/config_fields.h"
 #include "io/config_file.h"
 
 namespace vantage {
 
-/// Settings of a run and what was changed of them, with undo. Values that are refused change nothing.
+/// Settings of a run and what was changed of them, with undo. Values that are refused change nothing: what is
+/// wanted is valid at all times.
 class SettingEdits {
  public:
   /// Another run: its settings, nothing changed, nothing to undo.
@@ -29,7 +31,7 @@ class SettingEdits {
   bool setText(const std::string& key, const std::string& text);
   void finishEdit() { open_ = false; }
   bool reset(const std::string& key);
-  /// All keys that are changed; one undo for each.
+  /// All keys that are changed, as one change.
   bool resetAll();
   bool canUndo() const { return done_ > 0; }
   bool canRedo() const { return done_ < edits_.size(); }
@@ -40,16 +42,23 @@ class SettingEdits {
 
   /// The changed keys as a configuration file that applyToml() reads; a comment alone if there are none.
   std::string toml() const;
-  /// Takes over what a configuration file sets, as one change each. \throws InputError, nothing changes then
-  void load(const std::string& toml, const std::string& origin);
+  /// Takes over what a configuration file sets of the planner's parameters (see parametersOf()), as one
+  /// change. Returns the other keys that it sets differently from the run: planning again knows nothing of
+  /// them. \throws InputError, std::invalid_argument for values that do not fit together; nothing changes
+  /// then
+  std::vector<std::string> load(const std::string& toml, const std::string& origin, PlannerKind planner);
 
  private:
-  struct Edit {
+  struct Change {
     std::string key;
     config::Value before, after;
   };
+  using Edit = std::vector<Change>;  ///< what one undo takes back; never empty
   bool apply(const std::string& key, const config::Value& value);
-  void remember(Edit edit);
+  /// An edit of one key goes on until it is finished.
+  void remember(Change change);
+  /// Goes to valid settings in one finished edit; false if they are those that are wanted already.
+  bool changeTo(const Settings& settings);
 
   Settings recorded_, wanted_;
   std::vector<Edit> edits_;

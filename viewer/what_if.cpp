@@ -21,11 +21,15 @@ std::optional<ScoredGroups> groupsOf(const PlannedStep& step, PlannerKind planne
   return ScoredGroups(*step.data.record->search, contourConfigOf(step.settings, planner));
 }
 
-/// The step has what planning again starts from.
-bool canPlanAgain(const StepData& data, PlannerKind planner) {
-  if (data.record->closing) return false;
-  if (usesOctree(planner)) return data.pyramid && data.tree && data.record->utilities != nullptr;
-  return data.volume && data.record->search && data.record->positions && data.record->point_labels;
+/// What the step lacks of that which planning again starts from; empty if nothing.
+std::string lacking(const StepData& data, PlannerKind planner) {
+  const StepRecord& record = *data.record;
+  if (record.closing) return "nothing was planned after the last scan";
+  const bool searched = usesOctree(planner) ? record.utilities != nullptr
+                                            : record.search && record.positions && record.point_labels;
+  if (!searched) return "the step was cut before its views were searched";
+  const bool mapped = usesOctree(planner) ? data.pyramid && data.tree : data.volume != nullptr;
+  return mapped ? "" : "the map of the step is not there";
 }
 
 }  // namespace
@@ -53,6 +57,7 @@ void WhatIf::start(const std::string& name, Work work, Finish finish) {
 }
 
 void WhatIf::fail(const std::string& message) {
+  suspend();
   failure_ = message;
   state_ = WhatIfState::Failed;
   ++revision_;
@@ -84,7 +89,9 @@ void WhatIf::leaveStep() {
 void WhatIf::setStep(const StepData& recorded, std::shared_ptr<const WhatIfContext> context) {
   leaveStep();
   recorded_ = shown_ = recorded;
-  if (!context || !canPlanAgain(recorded, context->planner)) return;
+  if (!context) return;
+  failure_ = lacking(recorded, context->planner);
+  if (!failure_.empty()) return;
   if (!has_settings_) edits_.setRecorded(context->settings);
   has_settings_ = true;
   context_ = std::move(context);
@@ -93,6 +100,11 @@ void WhatIf::setStep(const StepData& recorded, std::shared_ptr<const WhatIfConte
   state_ = WhatIfState::Recorded;
   update();
   if (state_ != WhatIfState::Recorded) scorePending();
+}
+
+void WhatIf::refuse(std::string why) {
+  leaveStep();
+  failure_ = std::move(why);
 }
 
 std::size_t WhatIf::groups() const {
@@ -220,7 +232,7 @@ void WhatIf::suspend() {
 }
 
 bool WhatIf::busy() const {
-  if (stopped_) return false;
+  if (cancelled()) return false;
   return state_ == WhatIfState::Rerunning || state_ == WhatIfState::Checking ||
          state_ == WhatIfState::Scoring || pending_groups_ > 0;
 }
@@ -264,9 +276,40 @@ void WhatIf::redo() {
   if (edits_.redo()) update();
 }
 
-void WhatIf::load(const std::string& toml, const std::string& origin) {
-  edits_.load(toml, origin);
+std::vector<std::string> WhatIf::load(const std::string& toml, const std::string& origin) {
+  std::vector<std::string> others = edits_.load(toml, origin, context_->planner);
   update();
+  return others;
+}
+
+std::string stateText(const WhatIf& what_if) {
+  switch (what_if.state()) {
+    case WhatIfState::Unavailable:
+      return what_if.failure().empty() ? "preparing…" : "cannot be tried: " + what_if.failure();
+    case WhatIfState::Recorded:
+      return "as recorded";
+    case WhatIfState::Scoring:
+      return "scoring views not needed in the run";
+    case WhatIfState::Rerunning:
+      return "running the stages again…";
+    case WhatIfState::Checking:
+      return "planning the path to the view…";
+    case WhatIfState::Settled:
+      return "what a run would decide with these";
+    case WhatIfState::Failed:
+      return what_if.failure();
+  }
+  return "";
+}
+
+std::string scoredText(const WhatIf& what_if) {
+  if (!what_if.ready()) return "";
+  if (what_if.pendingGroups() == 0) return "all views are scored";
+  return std::to_string(what_if.pendingGroups()) + " of " + std::to_string(what_if.groups()) +
+         " groups of views not scored" +
+         (what_if.failed()      ? ": failed"
+          : what_if.cancelled() ? ": cancelled"
+                                : " yet");
 }
 
 }  // namespace vantage

@@ -31,9 +31,11 @@ class WhatIf {
  public:
   explicit WhatIf(BackgroundWork& work) : work_(work) {}
 
-  /// Another step; parameters that are tried stay. Without a context (it is being prepared, or the file is no
-  /// run) nothing can be tried.
+  /// Another step; parameters that are tried stay. Without a context nothing can be tried: it is being
+  /// prepared, or refuse() says why not.
   void setStep(const StepData& recorded, std::shared_ptr<const WhatIfContext> context);
+  /// Nothing can be tried on the step. \param why it cannot: "the step was cut before its search"
+  void refuse(std::string why);
   /// Another file: nothing is tried any more.
   void clear();
   bool ready() const { return context_ != nullptr; }
@@ -47,10 +49,12 @@ class WhatIf {
   void resetAll();
   void undo();
   void redo();
-  /// Takes over the parameters that a configuration file sets. \throws InputError
-  void load(const std::string& toml, const std::string& origin);
+  /// Takes over the planner's parameters that a configuration file sets; returns the other keys that it sets.
+  /// See SettingEdits::load(). \pre ready()
+  std::vector<std::string> load(const std::string& toml, const std::string& origin);
 
   WhatIfState state() const { return state_; }
+  /// Why it failed, or why nothing can be tried; empty while that is being prepared.
   const std::string& failure() const { return failure_; }
   /// The step under the parameters that are tried; empty if there is none, the recorded one if none is
   /// changed.
@@ -71,6 +75,8 @@ class WhatIf {
   /// Leaves the worker to another step that is about to come; state() stays. resume() if it does not come.
   void suspend();
   void resume() { update(); }
+  /// It failed without having been cancelled. Nothing goes on until something is changed or run again.
+  bool failed() const { return !stopped_ && state_ == WhatIfState::Failed; }
   /// There is something to cancel.
   bool busy() const;
 
@@ -103,5 +109,11 @@ class WhatIf {
   std::size_t pending_groups_ = 0;
   double rerank_s_ = 0.0;
 };
+
+/// What state() means, in a line.
+std::string stateText(const WhatIf& what_if);
+
+/// How many views are scored, in a line; empty if nothing is known about it.
+std::string scoredText(const WhatIf& what_if);
 
 }  // namespace vantage

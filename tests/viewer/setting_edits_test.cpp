@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "io/error.h"
 #include "viewer/parameter_text.h"
 #include "viewer/parameters.h"
@@ -105,18 +107,46 @@ TEST(SettingEdits, TomlHoldsWhatChangedAndReadsBackToIt) {
   edits.set("gain.outside", std::string("transparent"));
   edits.set("views.distances_m", std::vector<double>{0.7, 0.9});
   SettingEdits other = fresh();
-  other.load(edits.toml(), "test");
+  EXPECT_TRUE(other.load(edits.toml(), "test", PlannerKind::Contour).empty());
   for (const config::Field& field : config::fields())
     EXPECT_EQ(other.value(field.key), edits.value(field.key)) << field.key;
   EXPECT_TRUE(other.anyChanged());
-  while (other.undo()) {
-  }
-  EXPECT_FALSE(other.anyChanged());
+  EXPECT_TRUE(other.undo());
+  EXPECT_FALSE(other.anyChanged()) << "a file is one change";
+  EXPECT_FALSE(other.canUndo());
+  EXPECT_TRUE(other.redo());
+  EXPECT_EQ(other.toml(), edits.toml());
+}
+
+TEST(SettingEdits, AFileGivesTheParametersOfThePlannerAloneAndTheOthersAreNamed) {
+  SettingEdits edits = fresh();
+  const std::string file =
+      "[exploration]\nsteps = 77\n[gain]\nthreshold = 900\n[utility]\nmin_occupied = 33\n[scan]\n"
+      "frames = 77\n";
+  const std::vector<std::string> others = edits.load(file, "file", PlannerKind::Contour);
+  EXPECT_EQ(std::set<std::string>(others.begin(), others.end()),
+            (std::set<std::string>{"exploration.steps", "scan.frames", "utility.min_occupied"}));
+  EXPECT_EQ(numberOf(edits.value(kThreshold)), 900.0);
+  for (const std::string& key : others) EXPECT_FALSE(edits.changed(key)) << key;
+  EXPECT_EQ(edits.toml().find("steps"), std::string::npos);
+  edits.resetAll();
+  EXPECT_EQ(edits.load(file, "file", PlannerKind::Uniform).size(), 3u);
+  EXPECT_TRUE(edits.changed("utility.min_occupied"));
+  EXPECT_FALSE(edits.changed(kThreshold));
+}
+
+TEST(SettingEdits, ValuesOfAFileThatDoNotFitTogetherChangeNothing) {
+  SettingEdits edits = fresh();
+  EXPECT_THROW(edits.load("[segmentation]\nvoxel_m = 0.03\nseed_m = 0.01\n", "file", PlannerKind::Contour),
+               std::exception);
+  EXPECT_FALSE(edits.anyChanged());
+  EXPECT_FALSE(edits.canUndo());
 }
 
 TEST(SettingEdits, ABrokenFileChangesNothing) {
   SettingEdits edits = fresh();
-  EXPECT_THROW(edits.load("[saliency]\nisolation_distance_m = 0.01\nno_such_key = 1\n", "broken"),
+  EXPECT_THROW(edits.load("[saliency]\nisolation_distance_m = 0.01\nno_such_key = 1\n", "broken",
+                          PlannerKind::Contour),
                InputError);
   EXPECT_FALSE(edits.anyChanged());
 }
@@ -127,9 +157,24 @@ TEST(SettingEdits, ResetAllComesBackInOneGo) {
   edits.finishEdit();
   edits.set("segmentation.seed_m", 0.06);
   edits.finishEdit();
+  const std::string changed = edits.toml();
   EXPECT_TRUE(edits.resetAll());
   EXPECT_FALSE(edits.anyChanged());
   EXPECT_FALSE(edits.resetAll());
+  EXPECT_TRUE(edits.undo());
+  EXPECT_EQ(edits.toml(), changed);
+  EXPECT_TRUE(edits.redo());
+  EXPECT_FALSE(edits.anyChanged());
+}
+
+TEST(SettingEdits, EveryStateOnTheWayBackIsValid) {
+  SettingEdits edits = fresh();
+  edits.set("segmentation.voxel_m", 0.003);
+  edits.finishEdit();
+  ASSERT_TRUE(edits.set("segmentation.seed_m", 0.0075));  // too fine for the run's own voxel
+  edits.resetAll();
+  while (edits.undo()) EXPECT_NO_THROW(edits.wanted().validate());
+  while (edits.redo()) EXPECT_NO_THROW(edits.wanted().validate());
 }
 
 TEST(Parameters, EveryOneIsASettingWithASliderInsideItsRange) {
@@ -166,6 +211,14 @@ TEST(Parameters, AllSettingsOfThePlannersAreOffered) {
       EXPECT_NE(parameterOf(field.key), nullptr) << field.key;
     }
   }
+}
+
+TEST(Parameters, NamesSayWhatTheyAreWithoutTheOnesBeside) {
+  for (const PlannerKind planner : kPlannerKinds)
+    for (const ParameterGroup& group : parametersOf(planner))
+      for (const Parameter& p : group.parameters)
+        for (const char* part_of_a_sentence : {"as ", "and ", "or "})
+          EXPECT_FALSE(p.label.starts_with(part_of_a_sentence) || p.label.ends_with(" is")) << p.label;
 }
 
 }  // namespace

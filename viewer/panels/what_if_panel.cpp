@@ -161,26 +161,6 @@ class Row {
   std::string name_;
 };
 
-std::string stateText(const WhatIf& what_if) {
-  switch (what_if.state()) {
-    case WhatIfState::Unavailable:
-      return "preparing…";
-    case WhatIfState::Recorded:
-      return "as recorded";
-    case WhatIfState::Scoring:
-      return "scoring views not needed in the run";
-    case WhatIfState::Rerunning:
-      return "running the stages again…";
-    case WhatIfState::Checking:
-      return "planning the path to the view…";
-    case WhatIfState::Settled:
-      return "what a run would decide with these";
-    case WhatIfState::Failed:
-      return what_if.failure();
-  }
-  return "";
-}
-
 /// The view that the run chose and the one that would be chosen now.
 void decision(PanelContext& context) {
   const StepData &then = context.model.recorded(), &now = context.model.shown();
@@ -205,11 +185,7 @@ void header(PanelContext& context) {
   ImGui::TextUnformatted(stateText(what_if).c_str());
   tip(stateText(what_if));
   ImGui::PopStyleColor();
-  if (what_if.pendingGroups() > 0)
-    ImGui::TextDisabled("%zu of %zu groups of views not scored%s", what_if.pendingGroups(), what_if.groups(),
-                        what_if.cancelled() ? ": cancelled" : " yet");
-  else
-    ImGui::TextDisabled("all views are scored");
+  ImGui::TextDisabled("%s", scoredText(what_if).c_str());
   Widgets& w = context.widgets;
   const auto command = [&](const char* id, const char* label) {
     const Command* c = context.commands.find(id);
