@@ -70,26 +70,54 @@ Explanation explain(const SceneFrame& shown, const std::vector<CandidateRow>& ro
   return result;
 }
 
-std::uint64_t countedVoxels(const SceneFrame& shown, const CandidateRow& row) {
-  if (row.pending()) return 0;
+bool CountedRegion::operator==(const CountedRegion& other) const {
+  const auto same = [](const Sphere& a, const Sphere& b) {
+    return a.center == b.center && a.radius == b.radius;
+  };
+  return T_world_camera.matrix() == other.T_world_camera.matrix() && outside == other.outside &&
+         bounds.min() == other.bounds.min() && bounds.max() == other.bounds.max() &&
+         sphere.has_value() == other.sphere.has_value() && (!sphere || same(*sphere, *other.sphere));
+}
+
+std::optional<CountedRegion> countedRegion(const SceneFrame& shown, const CandidateRow& row) {
+  if (row.pending()) return std::nullopt;
+  CountedRegion region;
   if (const UtilitySearch* search = shown.record.utilities.get()) {
     const auto view = std::ranges::find(search->views, row.id, &ViewUtility::id);
-    if (view == search->views.end() || !onOctree(shown)) return 0;
-    HierarchicalQuery query;
-    query.bounds = shown.header.octree->object_box;
-    query.distinct_voxels = true;
-    return castUniformRays(shown.pyramid->finest(), *shown.tree, view->T_world_camera, query).unknown_voxels;
+    if (view == search->views.end() || !onOctree(shown)) return std::nullopt;
+    region.T_world_camera = view->T_world_camera;
+    region.bounds = shown.header.octree->object_box;
+    return region;
   }
   const ViewSearch* search = shown.record.search.get();
-  if (!search || row.group >= search->segments.size() || !groupOf(shown, row.id)) return 0;
-  VisibilityQuery region;
+  if (!search || row.group >= search->segments.size() || !groupOf(shown, row.id)) return std::nullopt;
+  region.T_world_camera = candidatePose(shown, row.id);
   region.outside = shown.header.contour_config.gain.outside;
-  region.distinct_voxels = true;
   if (const Sphere& sphere = search->segments[row.group].sphere; sphere.radius > 0.0)
     region.sphere = sphere;
   else
     region.bounds = shown.header.workspace;  // the baseline
-  return castUniform(shown.states, shown.header.camera, candidatePose(shown, row.id), region).unknown_voxels;
+  return region;
+}
+
+std::uint64_t countedVoxels(const SceneFrame& shown, const CandidateRow& row) {
+  const auto region = countedRegion(shown, row);
+  return region ? countedVoxels(shown, *region) : 0;
+}
+
+std::uint64_t countedVoxels(const SceneFrame& shown, const CountedRegion& region) {
+  if (shown.record.utilities) {
+    HierarchicalQuery query;
+    query.bounds = region.bounds;
+    query.distinct_voxels = true;
+    return castUniformRays(shown.pyramid->finest(), *shown.tree, region.T_world_camera, query).unknown_voxels;
+  }
+  VisibilityQuery query;
+  query.outside = region.outside;
+  query.sphere = region.sphere;
+  if (!region.bounds.isEmpty()) query.bounds = region.bounds;
+  query.distinct_voxels = true;
+  return castUniform(shown.states, shown.header.camera, region.T_world_camera, query).unknown_voxels;
 }
 
 }  // namespace vantage

@@ -46,8 +46,21 @@ Explanation explain(const SceneFrame& shown, std::uint32_t id);
 /// The same with the step's rows at hand. \param rows candidateRows(shown), in any state of comparison
 Explanation explain(const SceneFrame& shown, const std::vector<CandidateRow>& rows, std::uint32_t id);
 
+/// All that countedVoxels() depends on beside the map, the camera and the rays of the octree's planner.
+struct CountedRegion {
+  Pose T_world_camera = Pose::Identity();
+  std::optional<Sphere> sphere = {};  ///< only voxels inside count
+  Box bounds;                         ///< the same; empty = no such limit
+  OutsideUnknown outside = OutsideUnknown::Opaque;
+  bool operator==(const CountedRegion& other) const;
+};
+
+/// Empty if the candidate's segment or position is not known.
+std::optional<CountedRegion> countedRegion(const SceneFrame& shown, const CandidateRow& row);
+
 /// Distinct unknown voxels that a candidate counts, at full resolution; the diagnostic
 /// ChosenView::gain_voxels of any view. One cast. 0 if its segment or position is not known.
 std::uint64_t countedVoxels(const SceneFrame& shown, const CandidateRow& row);
+std::uint64_t countedVoxels(const SceneFrame& shown, const CountedRegion& region);
 
 }  // namespace vantage

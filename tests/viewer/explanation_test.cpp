@@ -11,6 +11,7 @@
 namespace vantage {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -143,7 +144,8 @@ TEST(Explanation, ShowsTheFactorsOfUtility) {
 TEST(Explanation, SaysWhyAViewOfTheHierarchicalPlannerWasNotChosen) {
   const test::SyntheticOctreeRun run = test::makeSyntheticOctreeRun(CandidateGenerator::Workspace);
   EXPECT_THAT(sentenceOf(run.frame(), ViewVerdict::Eligible), HasSubstr("has the higher utility"));
-  EXPECT_THAT(sentenceOf(run.frame(), ViewVerdict::NotFree), HasSubstr("cube of 5 cm"));
+  EXPECT_THAT(sentenceOf(run.frame(), ViewVerdict::NotFree),
+              AllOf(HasSubstr("cube of 5 cm"), HasSubstr("or the sensor itself would stand in")));
   EXPECT_THAT(sentenceOf(run.frame(), ViewVerdict::LittleSurface), HasSubstr("at least 50 are asked for"));
   const std::vector<CandidateRow> rows = candidateRows(run.frame());
   const Explanation rejected = explain(run.frame(), rows, rowWith(rows, ViewVerdict::NotFree)->id);
@@ -163,6 +165,27 @@ TEST(Explanation, CountsTheVoxelsOfTheChosenViewAsThePlannerDid) {
   ASSERT_GT(octree.record.chosen()->gain_voxels, 0u);
   EXPECT_EQ(countedVoxels(octree.frame(), *rowWith(rows, ViewVerdict::Chosen)),
             octree.record.chosen()->gain_voxels);
+}
+
+TEST(Explanation, VoxelsAreOthersOnlyIfPoseOrRegionAre) {
+  const test::SyntheticRun run = test::makeSyntheticRun();
+  const std::vector<CandidateRow> rows = candidateRows(run.frame());
+  const CandidateRow& chosen = *rowWith(rows, ViewVerdict::Chosen);
+  const auto region = countedRegion(run.frame(), chosen);
+  ASSERT_TRUE(region && region->sphere);
+  test::SyntheticRun other = run;
+  other.header.contour_config.gain.gain_threshold += 100.0;
+  EXPECT_EQ(countedRegion(other.frame(), chosen), region) << "a threshold ranks, it counts nothing";
+  auto search = std::make_shared<ViewSearch>(*run.record.search);
+  search->segments[chosen.group].sphere.radius *= 0.5;
+  other.record.search = search;
+  EXPECT_NE(countedRegion(other.frame(), chosen), region);
+  EXPECT_LT(countedVoxels(other.frame(), chosen), countedVoxels(run.frame(), chosen));
+  const auto next = std::ranges::find_if(
+      rows, [&](const CandidateRow& r) { return r.group == chosen.group && r.id != chosen.id; });
+  ASSERT_NE(next, rows.end());
+  EXPECT_NE(countedRegion(run.frame(), *next), region);
+  EXPECT_FALSE(countedRegion(run.frame(), *rowWith(rows, ViewVerdict::Pending)));
 }
 
 }  // namespace

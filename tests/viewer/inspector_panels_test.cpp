@@ -256,5 +256,36 @@ TEST_F(InspectorPanelsTest, ANewConfigurationFileIsNamedAmongItsLikeAndAskedForB
   EXPECT_THAT(test::readFile(*folder_ / "settings/old.toml"), HasSubstr("threshold = 900"));
 }
 
+TEST_F(InspectorPanelsTest, VoxelsAreNotCountedAnewWhileASliderIsMoved) {
+  InspectorDriver driver;
+  driver.open(run());
+  driver.ui.click("tab/What if");
+  ASSERT_TRUE(driver.ui.has("explain/voxels"));
+  const auto hold = [&](const std::string& name) {
+    driver.ui.hover(name);
+    const WidgetBox box = *driver.inspector.widgets().find(name);
+    driver.ui.pressMouse();
+    driver.ui.frame();
+    driver.ui.moveMouse(box.left + 0.31 * (box.right - box.left), box.y());
+    driver.ui.frame();
+    driver.ui.frame();
+  };
+  const std::string margin = "gain.sphere_margin_m", points = "saliency.min_points";
+  hold("what-if/" + margin);
+  ASSERT_TRUE(driver.whatIf().edits().changed(margin));
+  EXPECT_FALSE(driver.ui.has("explain/voxels")) << "another sphere: a whole view would be cast";
+  driver.ui.releaseMouse();
+  driver.ui.settle();
+  EXPECT_TRUE(driver.ui.has("explain/voxels"));
+
+  driver.model().selected_view = driver.model().explainedView();
+  driver.ui.settle();
+  hold("what-if/" + points);
+  ASSERT_TRUE(driver.whatIf().edits().changed(points));
+  EXPECT_TRUE(driver.ui.has("explain/voxels")) << "ranks alone change: what was counted still holds";
+  driver.ui.releaseMouse();
+  driver.ui.settle();
+}
+
 }  // namespace
 }  // namespace vantage

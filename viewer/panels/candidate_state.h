@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "viewer/candidate_table.h"
+#include "viewer/explanation.h"
 
 namespace vantage {
 
@@ -20,10 +22,11 @@ struct CandidateState {
   };
   Scrolled scrolled;
 
-  /// Voxels that a view counts, of the last one that was asked for.
+  /// Voxels that a view counts, of the last one that was asked for, and what they were counted in.
   struct Counted {
-    std::uint64_t revision = 0;  ///< of the table
-    std::uint32_t id = 0;
+    CountedRegion region;
+    std::weak_ptr<const StateGrid> states;
+    std::weak_ptr<const RayTree> tree;
     std::uint64_t voxels = 0;
   };
   std::optional<Counted> counted;

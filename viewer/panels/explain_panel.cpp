@@ -157,13 +157,22 @@ void buttons(PanelContext& context, const Explanation& e) {
     context.model.selected_view = *e.other;
 }
 
-/// Distinct voxels that the view counts, asked for once.
+template <class T>
+bool isSame(const std::weak_ptr<const T>& known, const std::shared_ptr<const T>& now) {
+  return !known.owner_before(now) && !now.owner_before(known);
+}
+
+/// Distinct voxels that the view counts. They are counted anew only if they may be others, and not while a
+/// slider is moved: that casts a whole view.
 void countedLine(PanelContext& context, const Explanation& e) {
-  if (!e.row) return;
+  const StepData& shown = context.model.shown();
+  const auto region = e.row ? countedRegion(shown.frame(), *e.row) : std::nullopt;
+  if (!region) return;
   CandidateState& state = context.candidates;
-  const std::uint64_t revision = state.table.revision();
-  if (!state.counted || state.counted->revision != revision || state.counted->id != e.id)
-    state.counted = {revision, e.id, countedVoxels(context.model.shown().frame(), *e.row)};
+  const bool known = state.counted && state.counted->region == *region &&
+                     isSame(state.counted->states, shown.states) && isSame(state.counted->tree, shown.tree);
+  if (!known && ImGui::IsMouseDown(0)) return;
+  if (!known) state.counted = {*region, shown.states, shown.tree, countedVoxels(shown.frame(), *region)};
   faintText(context.theme, "It sees " + grouped(state.counted->voxels) + " unknown voxels that count.");
   context.widgets.note("explain/voxels");
 }
