@@ -1,6 +1,7 @@
 #include "viewer/preferences.h"
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <cstdlib>
 
@@ -205,9 +206,16 @@ TEST(Preferences, KeepTheMostRecentFilesOnceEach) {
 
 TEST(Preferences, AFileThatCannotBeWrittenKeepsItsContent) {
   const TemporaryFolder folder;
-  writeFile(folder / "file", "x");
-  EXPECT_THROW(savePreferences(folder / "file/inspector.toml", {}), std::runtime_error);
-  EXPECT_EQ(readFile(folder / "file"), "x");
+  const fs::path file = folder / "inspector.toml";
+  savePreferences(file, unusual());
+  const std::string before = readFile(file);
+  ASSERT_NE(before, "");
+  // Stands where the new content is written before it takes the place of the old one.
+  fs::create_directories(file.string() + "." + std::to_string(::getpid()) + ".new/full");
+  EXPECT_THROW(savePreferences(file, {}), std::runtime_error);
+  EXPECT_EQ(readFile(file), before);
+  EXPECT_THROW(savePreferences(file / "below a file.toml", {}), std::runtime_error);
+  EXPECT_EQ(readFile(file), before);
 }
 
 TEST(Preferences, LieWhereTheSystemKeepsState) {
