@@ -4,8 +4,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <array>
-#include <utility>
+#include <span>
 
 #include "viewer/panels/plot.h"
 
@@ -38,6 +37,67 @@ void commandLine(PanelContext& context, const Command& command, bool selected) {
   if (keys.empty()) return;
   ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(keys.c_str()).x);
   ImGui::TextDisabled("%s", keys.c_str());
+}
+
+/// What is done, and what it does.
+struct Hint {
+  const char* what;
+  const char* does;
+};
+
+constexpr Hint kMouse[] = {{"left drag", "turn about the scene, z stays up"},
+                           {"right, middle or Shift+left drag", "move the scene"},
+                           {"wheel", "nearer and farther, toward the cursor"},
+                           {"hover", "voxel, segment or view under the cursor"},
+                           {"double click", "look at this point"},
+                           {"click on a frustum or a table row", "select the view and explain it"},
+                           {"drop a file", "open it"}};
+
+constexpr Hint kPanels[] = {{"drag a border between panels", "make one larger"},
+                            {"Ctrl+click on a slider", "type a value"},
+                            {"right click on a table head", "choose columns"},
+                            {"commands: arrows, Enter, Esc", "choose, run, close"},
+                            {"files: arrows, Enter, Esc", "choose, open, close"},
+                            {"files: Tab, Backspace", "complete a path, folder above"},
+                            {"after F6: arrows, Space, Enter", "walk the panels; no commands"}};
+
+void heading(const PanelContext& context, const char* text) {
+  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(packed(context.theme.accent)), "%s", text);
+}
+
+/// A column of the table that is open.
+void hints(const PanelContext& context, const char* title, std::span<const Hint> all) {
+  ImGui::TableNextColumn();
+  heading(context, title);
+  for (const Hint& hint : all) {
+    ImGui::TextUnformatted(hint.what);
+    ImGui::SameLine(ImGui::GetFontSize() * 15.5f);
+    ImGui::TextUnformatted(hint.does);
+  }
+}
+
+/// Commands that have keys, group after group, in two columns.
+void commandKeys(const PanelContext& context) {
+  if (!ImGui::BeginTable("sheet", 2, ImGuiTableFlags_SizingStretchSame)) return;
+  ImGui::TableNextColumn();
+  const auto& all = context.commands.all();
+  const auto with_keys =
+      std::ranges::count_if(all, [](const Command& command) { return command.keys.key != Key::None; });
+  std::string group;
+  int line = 0;
+  for (const Command& command : all) {
+    if (command.keys.key == Key::None) continue;
+    if (line++ == (with_keys + 1) / 2) {
+      ImGui::TableNextColumn();
+      group.clear();
+    }
+    if (group != command.group) heading(context, command.group.c_str());
+    group = command.group;
+    ImGui::TextUnformatted(textOf(command.keys).c_str());
+    ImGui::SameLine(ImGui::GetFontSize() * 8.0f);
+    ImGui::TextUnformatted(command.title.c_str());
+  }
+  ImGui::EndTable();
 }
 
 }  // namespace
@@ -86,47 +146,17 @@ void CommandPalette::draw(PanelContext& context) {
 
 void CheatSheet::draw(PanelContext& context) {
   if (!open_) return;
-  center(56.0, 0.08);
+  center(60.0, 0.05);
   bool stays = true;
   if (ImGui::Begin("Keys and mouse", &stays, kDialog)) {
     const ImVec2 at = ImGui::GetWindowPos(), extent = ImGui::GetWindowSize();
     context.widgets.note("cheat sheet", {at.x, at.y, at.x + extent.x, at.y + extent.y, true});
-    static constexpr std::array<std::pair<const char*, const char*>, 7> kMouse = {
-        {{"left drag", "turn about the scene, z stays up"},
-         {"right or middle drag, Shift+left drag", "move the scene"},
-         {"wheel", "nearer and farther, toward the cursor"},
-         {"click a frustum or a table row", "select the view and explain it"},
-         {"hover", "voxel, segment or view under the cursor"},
-         {"double click", "look at this point"},
-         {"drop a file", "open it"}}};
-    if (ImGui::BeginTable("sheet", 2, ImGuiTableFlags_SizingStretchSame)) {
-      ImGui::TableNextColumn();
-      std::string group;
-      int line = 0;
-      int with_keys = 0;
-      for (const Command& command : context.commands.all()) with_keys += command.keys.key != Key::None;
-      for (const Command& command : context.commands.all()) {
-        if (command.keys.key == Key::None) continue;
-        if (line++ == (with_keys + 1) / 2) {
-          ImGui::TableNextColumn();
-          group.clear();
-        }
-        if (group != command.group) {
-          group = command.group;
-          ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(packed(context.theme.accent)), "%s",
-                             group.c_str());
-        }
-        ImGui::Text("%s", textOf(command.keys).c_str());
-        ImGui::SameLine(ImGui::GetFontSize() * 8.0f);
-        ImGui::TextUnformatted(command.title.c_str());
-      }
-      ImGui::EndTable();
-    }
+    commandKeys(context);
     ImGui::Separator();
-    for (const auto& [what, does] : kMouse) {
-      ImGui::TextUnformatted(what);
-      ImGui::SameLine(ImGui::GetFontSize() * 20.0f);
-      ImGui::TextUnformatted(does);
+    if (ImGui::BeginTable("hints", 2, ImGuiTableFlags_SizingStretchSame)) {
+      hints(context, "Mouse", kMouse);
+      hints(context, "Panels and dialogs", kPanels);
+      ImGui::EndTable();
     }
     if (pressed(Key::Escape)) stays = false;
   }
