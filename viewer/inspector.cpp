@@ -311,9 +311,9 @@ void Inspector::draw(double pixel_scale) {
   PanelContext context = s.panelContext();
   const WindowLayout layout = windowLayout(s.preferences);
   menuBar(context);
-  s.viewWindows(layout, pixel_scale);
   leftPart(context, layout);
   rightPart(context, layout);
+  s.viewWindows(layout, pixel_scale);  // after the panels: what they change is seen in this frame
   timelinePart(context, layout);
   statusBar(context, layout);
   splitters(context, layout);

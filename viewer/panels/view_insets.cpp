@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "viewer/layers/layer.h"
 #include "viewer/panels/overlays.h"
 #include "viewer/panels/plot.h"
 #include "viewer/ui_host.h"
@@ -13,6 +16,7 @@
 namespace vantage {
 namespace {
 
+constexpr float kWordy_em = 9.0f;  ///< narrower pictures have no room for a legend
 constexpr float kWidth_em = 14.0f, kGap_px = 10.0f;
 constexpr float kSmallest_px = 60.0f;  ///< nothing can be seen in less
 constexpr double kNear_m = 0.8;        ///< what the eye of the picture turns about, of no matter here
@@ -44,6 +48,13 @@ struct Picture {
   }
 };
 
+/// What stands below a picture.
+struct Words {
+  std::string title;
+  std::vector<LegendEntry> legend;
+  std::optional<ColorScale> scale;
+};
+
 /// Places insets from the top downward.
 class Column {
  public:
@@ -54,26 +65,28 @@ class Column {
   /// There is room for a picture of that height and what is written below it.
   bool hasRoom(float height) const { return top_ + height + ImGui::GetFontSize() <= area_.bottom; }
 
-  /// \param scale below the picture; null: none
-  void add(const std::string& name, const std::string& title, const Picture& picture, float height,
-           const ColorScale* scale, Rgb border) {
-    const float line = ImGui::GetFontSize(), wrap = width_ - 10.0f;
-    const float text = ImGui::CalcTextSize(title.c_str(), nullptr, false, wrap).y;
-    const float below = (text + 6.0f) + (scale ? 2.2f * line : 0.0f);
+  void add(const std::string& name, const Picture& picture, float height, const Words& words, Rgb border) {
+    constexpr float kPad = 5.0f;
     const ImVec2 low{area_.right - kGap_px - width_, top_}, high{area_.right - kGap_px, top_ + height};
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddRectFilled(low, {high.x, high.y + below}, packed(context_.theme.panel, 0.9));
+    draw.ChannelsSplit(2);  // how high the plate is shows when all is written on it
+    draw.ChannelsSetCurrent(1);
     draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture.texture.handle())), low,
                   high);
-    draw.AddRect(low, {high.x, high.y + below}, packed(border), 0.0f, 0, 2.0f);
-    draw.AddText(nullptr, 0.0f, {low.x + 5.0f, high.y + 3.0f}, packed(context_.theme.ink), title.c_str(),
-                 nullptr, wrap);
-    if (scale) {
-      ImGui::SetCursorScreenPos({low.x + 8.0f, high.y + text + 7.0f});
-      drawColorScale(*scale, width_ - 16.0f, context_.theme);
-    }
-    context_.widgets.note(area_.name + "/" + name, {low.x, low.y, high.x, high.y + below, true});
-    top_ = high.y + below + kGap_px;
+    ImGui::SetCursorScreenPos({low.x + kPad, high.y + kPad});
+    ImGui::BeginGroup();
+    wrappedText(words.title, width_ - 2 * kPad);
+    if (width_ >= kWordy_em * ImGui::GetFontSize())
+      for (const LegendEntry& entry : words.legend) drawLegendEntry(entry, context_.theme, width_ - 2 * kPad);
+    if (words.scale) drawColorScale(*words.scale, width_ - 2 * kPad, context_.theme);
+    ImGui::EndGroup();
+    const ImVec2 end{high.x, ImGui::GetItemRectMax().y + kPad};
+    draw.ChannelsSetCurrent(0);
+    draw.AddRectFilled(low, end, packed(context_.theme.panel, 0.9));
+    draw.ChannelsMerge();
+    draw.AddRect(low, end, packed(border), 0.0f, 0, 2.0f);
+    context_.widgets.note(area_.name + "/" + name, {low.x, low.y, end.x, end.y, true});
+    top_ = end.y + kGap_px;
   }
 
  private:
@@ -86,6 +99,7 @@ class Column {
 
 struct ViewInsets::State {
   Picture view, layer;
+  std::vector<LegendEntry> view_legend;  ///< of what the view counts and what ends its rays
 
   void drawView(PanelContext& context, Viewport& viewport, Column& column, double pixel_scale,
                 std::uint64_t revision);
@@ -114,9 +128,14 @@ void ViewInsets::State::drawView(PanelContext& context, Viewport& viewport, Colu
     vtkRenderer* const renderers[] = {context.scene.inset(eyeOfView(camera, *pose, kNear_m), kLayers)};
     view.set(viewport.picture(renderers, width_px, static_cast<int>(std::lround(height * pixel_scale))),
              revision, *id, width_px);
+    view_legend.clear();
+    for (const Layer seen : {Layer::HitVoxels, Layer::Occluders})
+      if (const LayerContent* content = context.scene.content(seen))
+        view_legend.insert(view_legend.end(), content->legend.begin(), content->legend.end());
   }
   if (!view.filled) return;
-  column.add("inset", "view " + std::to_string(view.what) + ": predicted to see", view, height, nullptr,
+  column.add("inset", view, height,
+             {"view " + std::to_string(view.what) + ": predicted to see", view_legend, {}},
              context.theme.chosen);
 }
 
@@ -130,7 +149,7 @@ void ViewInsets::State::drawLayers(PanelContext& context, Column& column, std::u
     const auto map = static_cast<std::uint64_t>(inset.scale.map);
     if (!layer.isOf(revision, map, inset.image.width))
       layer.set(inset.image, revision, map, inset.image.width);
-    column.add("depth", inset.title, layer, height, &inset.scale, context.theme.faint);
+    column.add("depth", layer, height, {inset.title, {}, inset.scale}, context.theme.faint);
     return;
   }
 }
