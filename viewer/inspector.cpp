@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <sstream>
 #include <utility>
 
 #include "io/text_file.h"
@@ -231,7 +232,10 @@ void Inspector::State::followModel(Document& d) {
     d.eye_wanted = true;
   }
   if (model.file() != d.file_before) {
-    d.eye_wanted |= !d.file_before.empty();
+    // The remembered eye is that of the last file.
+    const bool as_last = d.file_before.empty() && !preferences.recent_files.empty() &&
+                         preferences.recent_files.front().path == std::filesystem::absolute(model.file());
+    d.eye_wanted |= &d == &document() && !as_last;
     d.file_before = model.file();
     d.place_before = model.place();
     preferences.addRecent(model.file());
@@ -251,6 +255,19 @@ void Inspector::State::followModel(Document& d) {
   d.stage_layers_before = d.stageLayers();
 }
 
+/// What differs from the run, for a caption; empty if nothing does.
+std::string whatIfText(const WhatIf& what_if) {
+  if (!what_if.edits().anyChanged()) return "";
+  std::istringstream lines(what_if.edits().toml());
+  std::string text, group, line;
+  while (std::getline(lines, line)) {
+    if (line.starts_with('[')) group = line.substr(1, line.find(']') - 1) + ".";
+    if (line.find(" = ") != std::string::npos)
+      text += (text.empty() ? "" : ", ") + group + line.substr(0, line.find("  #"));
+  }
+  return text;
+}
+
 void Inspector::State::screenshot() {
   InspectorModel& model = document().model;
   const StepData& shown = model.shown();
@@ -262,7 +279,7 @@ void Inspector::State::screenshot() {
   try {
     ViewSettings settings = preferences.view;
     settings.camera.eye = document().scene.eye();
-    writePng(ports.picture(shown.frame(), settings, gl, 1280, 800), file);
+    writePng(ports.picture(shown.frame(), settings, whatIfText(model.whatIf()), gl, 1280, 800), file);
     model.say(Notice::Level::Info, "picture saved as " + std::filesystem::absolute(file).string());
   } catch (const std::exception& e) {
     model.say(Notice::Level::Error, e.what());
@@ -331,6 +348,14 @@ bool Inspector::wantsToClose() const {
 
 const Preferences& Inspector::preferences() const {
   return state_->preferences;
+}
+
+Preferences Inspector::toKeep() const {
+  Preferences kept = state_->preferences;
+  // What a stage shows comes with the stage: the next start begins with the overview.
+  const Document& d = state_->document();
+  if (!d.model.recorded().empty() && kept.view.layers == d.stageLayers()) kept.view.layers = {};
+  return kept;
 }
 
 const Widgets& Inspector::widgets() const {

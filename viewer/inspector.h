@@ -21,8 +21,11 @@ class InspectorModel;
 
 /// What the inspector needs from above.
 struct InspectorPorts {
-  /// A picture of a view with caption and legend, as snapshots make it.
-  std::function<RgbImage(const SceneFrame&, const ViewSettings&, GlContext&, int width, int height)> picture;
+  /// A picture of a view with caption and legend, as snapshots make it. `what_if`: parameters that differ
+  /// from the run, for the caption; empty if none do.
+  std::function<RgbImage(const SceneFrame&, const ViewSettings&, const std::string& what_if, GlContext&,
+                         int width, int height)>
+      picture;
   std::function<void(const std::string&)> copy = [](const std::string&) {};  ///< to the clipboard
   std::function<void()> wake = [] {};  ///< called from any thread: draw a frame soon
   /// The view of a recipe file; called from any thread. Without it recipes cannot be opened.
@@ -51,8 +54,10 @@ class Inspector {
   bool idle() const;
   bool wantsToClose() const;
 
-  /// Theme and text height for the host, window and all else that is kept for the next start.
+  /// Theme and text height for the host, window and all else that is set.
   const Preferences& preferences() const;
+  /// What is to be kept for the next start.
+  Preferences toKeep() const;
   const Widgets& widgets() const;
   const Commands& commands() const;
   InspectorModel& model();

@@ -216,11 +216,12 @@ void InspectorModel::follow() {
   const auto running = work_.running();  // the news of a job that another one replaces would be lost
   if (std::ranges::any_of(running, [](const BackgroundProgress& work) { return work.name == kFollow; }))
     return;
-  work_.start(kFollow, [this, session = session_, finished = finished_](const RunControl&) {
+  work_.start(kFollow, [this, session = session_, finished = finished_, lost = lost_](const RunControl&) {
     const Followed news = session->refresh();
     Followed nothing;
     nothing.finished = finished;
-    if (news == nothing) return BackgroundWork::Finish();  // nor is anything drawn
+    if (news == nothing || (lost && !news.replaced))
+      return BackgroundWork::Finish();  // nor is anything drawn
     std::vector<StepSummary> steps;
     if (news.grown || news.replaced || news.finished) steps = session->summaries();
     return BackgroundWork::Finish([this, news, steps = std::move(steps)]() mutable {
@@ -228,7 +229,7 @@ void InspectorModel::follow() {
       if (news.gone || !news.problem.empty()) {
         lost_ = true;
         say(Notice::Level::Warning, (news.gone ? name + " is gone" : news.problem) +
-                                        "; what is loaded stays, other steps cannot be shown");
+                                        "; steps are shown as far as they can still be read");
         return;
       }
       if (news.replaced) {
@@ -262,7 +263,7 @@ bool InspectorModel::update(double elapsed_s) {
   }
   changed |= was_playing != player.playing();
   since_follow_s_ += elapsed_s;
-  if (session_ && !lost_ && since_follow_s_ >= (growing() ? kFollowEvery_s : kWatchEvery_s)) {
+  if (session_ && since_follow_s_ >= (growing() ? kFollowEvery_s : kWatchEvery_s)) {
     since_follow_s_ = 0.0;
     follow();
   }

@@ -107,7 +107,7 @@ class InspectorModel {
   std::filesystem::path file_;
   std::shared_ptr<RunSession> session_;  ///< used by jobs only, one at a time
   bool finished_ = true;
-  bool lost_ = false;  ///< the file is gone or cannot be read any more
+  bool lost_ = false;  ///< the file is gone or cannot be read any more; another one may come
   bool opening_ = false;
   bool load_failed_ = false;  ///< of the step that was asked for last
   std::deque<std::filesystem::path> next_files_;

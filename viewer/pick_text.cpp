@@ -37,15 +37,15 @@ std::string ordinal(std::size_t place) {
   return std::to_string(place) + ending;
 }
 
-/// Where a segment comes in the order in which segments are tried: ", tried 2nd of 5"; empty before it is
-/// known. \param index into SaliencyResult::segments
+/// Where a segment comes in the order in which segments are tried, as the numbers in the picture: ", no. 2 of
+/// 5 ..."; empty before it is known. \param index into SaliencyResult::segments
 std::string triedText(const StepRecord& record, std::size_t index) {
   if (!record.search) return "";
   const auto& order = record.search->segments;
   const auto at = std::ranges::find(order, static_cast<std::int32_t>(index), &SegmentSearch::segment);
   if (at == order.end()) return ", not tried: it has no contour points";
-  return ", tried " + ordinal(static_cast<std::size_t>(at - order.begin()) + 1) + " of " +
-         std::to_string(order.size());
+  const auto place = static_cast<std::size_t>(at - order.begin()) + 1;
+  return ", no. " + std::to_string(place) + " of " + std::to_string(order.size()) + " in the order of trying";
 }
 
 /// What the hierarchical planner computed of a view before the test that it failed.
@@ -90,7 +90,7 @@ std::string segmentText(const Picked& picked, const StepData& step) {
   if (!saliency || picked.id == 0 || picked.id > saliency->segments.size()) return "";
   const std::size_t index = picked.id - 1;
   const Segment& s = saliency->segments[index];
-  return "segment " + std::to_string(s.label) + triedText(*step.record, index) + ", " +
+  return "segment with label " + std::to_string(s.label) + triedText(*step.record, index) + ", " +
          plural(s.points, "point") + "\n" +
          format("saliency %.3f = F %.3f x d_min/d_max %.3f\n", s.saliency, s.isolation, s.roundness) +
          format("d_min %.1f cm, d_max %.1f cm, radius %.1f cm\n", 100.0 * s.extent_m[2],

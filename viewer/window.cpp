@@ -70,6 +70,16 @@ struct Window::State {
   std::optional<int> held;           ///< the key that is held down for it in this frame
   std::array<bool, 512> shown = {};  ///< keys that were down in the last frame
 
+  /// The same for the mouse: a button counts where it was pressed or let go, however late the frame is.
+  struct Click {
+    int button;
+    bool down;
+    double x, y;
+  };
+  std::deque<Click> clicks;
+  double cursor_x = 0.0, cursor_y = 0.0;  ///< as the events tell it; GLFW asks the display where it is now
+  std::array<bool, 3> buttons = {};
+
   /// Dear ImGui takes some frames to come to rest after an event.
   void wantFrames() { frames_wanted = 3; }
   double pixelScale() const;
@@ -77,6 +87,7 @@ struct Window::State {
   void fitMonitor();
   void drawFrame(double elapsed_s);
   void showPress();
+  void showClick();
 };
 
 namespace {
@@ -90,8 +101,18 @@ void watchEvents(GLFWwindow* window) {
   glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { wanted(w); });
   glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int) { wanted(w); });
   glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int) { wanted(w); });
-  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double, double) { wanted(w); });
-  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int, int, int) { wanted(w); });
+  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
+    auto* state = static_cast<Window::State*>(glfwGetWindowUserPointer(w));
+    state->cursor_x = x;
+    state->cursor_y = y;
+    wanted(w);
+  });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
+    auto* state = static_cast<Window::State*>(glfwGetWindowUserPointer(w));
+    if (button >= 0 && button < static_cast<int>(state->buttons.size()))
+      state->clicks.push_back({button, action == GLFW_PRESS, state->cursor_x, state->cursor_y});
+    wanted(w);
+  });
   glfwSetScrollCallback(window, [](GLFWwindow* w, double, double) { wanted(w); });
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
     if (action == GLFW_PRESS && key >= 0)
@@ -227,6 +248,19 @@ void Window::State::fitMonitor() {
   glfwSetWindowPos(window, left, top);
 }
 
+/// One change of a button a frame, at the place where it happened.
+void Window::State::showClick() {
+  ImGuiIO& io = ImGui::GetIO();
+  if (!clicks.empty()) {
+    const Click click = clicks.front();
+    clicks.pop_front();
+    buttons[click.button] = click.down;
+    io.MousePos = {static_cast<float>(click.x), static_cast<float>(click.y)};
+    wantFrames();
+  }
+  std::copy(buttons.begin(), buttons.end(), std::begin(io.MouseDown));
+}
+
 void Window::State::drawFrame(double elapsed_s) {
   int width = 1, height = 1;
   glfwGetFramebufferSize(window, &width, &height);
@@ -236,6 +270,7 @@ void Window::State::drawFrame(double elapsed_s) {
   host->makeCurrent();
   ImGui_ImplGlfw_NewFrame();
   showPress();
+  showClick();
   ImGui::GetIO().DeltaTime = static_cast<float>(elapsed_s);
   host->begin();
   inspector->draw(pixelScale());

@@ -16,7 +16,8 @@ namespace vantage::testing {
 struct InspectorDriver {
   EglContext context;
   std::string clipboard;
-  int pictures_taken = 0;  ///< by the port
+  std::string picture_title;  ///< what-if of the last picture
+  int pictures_taken = 0;     ///< by the port
   Inspector inspector;
   OffscreenUi ui;
 
@@ -47,7 +48,9 @@ struct InspectorDriver {
   InspectorPorts ports() {
     InspectorPorts ports;
     ports.copy = [this](const std::string& text) { clipboard = text; };
-    ports.picture = [this](const SceneFrame&, const ViewSettings& view, GlContext&, int width, int height) {
+    ports.picture = [this](const SceneFrame&, const ViewSettings& view, const std::string& what_if,
+                           GlContext&, int width, int height) {
+      picture_title = what_if;
       ++pictures_taken;
       view.validate();
       return RgbImage(width, height);

@@ -45,10 +45,6 @@ std::size_t coloursIn(InspectorDriver& driver, const std::string& name) {
   return colours.size();
 }
 
-bool overlap(const WidgetBox& a, const WidgetBox& b) {
-  return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
-}
-
 TEST_F(InspectorViewTest, TheOverviewIsAStageThatOneComesBackTo) {
   InspectorDriver driver;
   driver.open(run());
@@ -131,15 +127,6 @@ TEST_F(InspectorViewTest, TheLegendIsFoldedAwayAndDoesNotStandInTheMousesWay) {
   driver.ui.click("view/legend/fold");
   driver.ui.settle();
   EXPECT_TRUE(driver.ui.has("view/legend"));
-}
-
-TEST_F(InspectorViewTest, InASmallWindowLegendAndPicturesDoNotCoverEachOther) {
-  InspectorDriver driver({}, 700, 500);
-  driver.open(run());
-  ASSERT_TRUE(driver.ui.has("view/legend"));
-  ASSERT_TRUE(driver.ui.has("view/inset"));
-  EXPECT_FALSE(overlap(*driver.inspector.widgets().find("view/legend"),
-                       *driver.inspector.widgets().find("view/inset")));
 }
 
 TEST_F(InspectorViewTest, InASmallWindowStagesAreChosenFromAList) {
@@ -245,6 +232,116 @@ TEST_F(InspectorViewTest, TheEyeIsPlacedAfterTheShownStepWasReplaced) {
   }
   driver.ui.settle();
   EXPECT_TRUE(driver.inspector.preferences().eye->position.allFinite());
+}
+
+TEST_F(InspectorViewTest, WhatIsTypedIntoAFieldCountsWhenTheFieldIsLeftAndNotAfterEscape) {
+  const std::string key = "saliency.isolation_distance_m";
+  InspectorDriver driver;
+  driver.open(run());
+  driver.ui.click("tab/What if");
+  const auto typeOver = [&](const std::string& text) {
+    driver.ui.click("what-if/" + key + "/text");
+    driver.ui.press({keyOf('A'), true});
+    driver.ui.type(text);
+  };
+  const auto value = [&] { return std::get<double>(driver.whatIf().edits().value(key)); };
+  const double before = value();
+  typeOver("31");
+  driver.ui.press({Key::Escape});
+  driver.ui.settle();
+  EXPECT_DOUBLE_EQ(value(), before);
+  typeOver("32");
+  driver.ui.press({Key::Tab});
+  driver.ui.settle();
+  EXPECT_DOUBLE_EQ(value(), 0.032);
+  typeOver("33");
+  driver.ui.click("tab/What if");
+  driver.ui.settle();
+  EXPECT_DOUBLE_EQ(value(), 0.033);
+}
+
+TEST_F(InspectorViewTest, TabGoesFromFieldToFieldAndNeverIntoASlider) {
+  InspectorDriver driver;
+  driver.open(run());
+  driver.ui.click("tab/What if");
+  driver.ui.click("what-if/saliency.isolation_distance_m/text");
+  driver.ui.press({Key::Tab});
+  driver.ui.type("30");
+  driver.ui.press({Key::Enter});
+  driver.ui.settle();
+  // In the field's unit: a slider would have taken it for 30 m.
+  EXPECT_DOUBLE_EQ(std::get<double>(driver.whatIf().edits().value("gain.sphere_margin_m")), 0.30);
+}
+
+TEST_F(InspectorViewTest, LayersThatAStageBroughtAreNotKeptForTheNextStart) {
+  InspectorDriver driver;
+  driver.open(run());
+  driver.ui.press({Key::End});
+  driver.ui.settle();
+  EXPECT_EQ(driver.inspector.toKeep().view.layers, LayerSet());
+  driver.ui.press({keyOf('6')});
+  driver.ui.settle();
+  EXPECT_TRUE(driver.inspector.toKeep().view.layers.has(Layer::Surface));
+}
+
+TEST_F(InspectorViewTest, ARunThatIsDeletedAndWrittenAgainIsOpenedAgain) {
+  const std::string copy = *folder_ / "again.vantage";
+  std::filesystem::copy_file(run(), copy, std::filesystem::copy_options::overwrite_existing);
+  InspectorDriver driver;
+  driver.open(copy);
+  const auto waitFor = [&](const std::string& words) {
+    for (int i = 0; i < 60 && driver.notices().find(words) == std::string::npos; ++i) {
+      driver.ui.frame(0.25);
+      driver.ui.settle();
+    }
+    EXPECT_THAT(driver.notices(), HasSubstr(words));
+  };
+  std::filesystem::remove(copy);
+  waitFor("again.vantage is gone");
+  std::filesystem::copy_file(run(), copy);
+  waitFor("written anew");
+  driver.ui.settle();
+  EXPECT_EQ(driver.model().place().step, 0);
+  EXPECT_FALSE(driver.model().shown().empty());
+}
+
+TEST_F(InspectorViewTest, OneSliceComesAtATime) {
+  InspectorDriver driver;
+  driver.open(run());
+  driver.ui.click("slices/x");
+  driver.ui.settle();
+  const ViewSettings& view = driver.inspector.preferences().view;
+  EXPECT_TRUE(view.layers.has(Layer::Slices));
+  EXPECT_TRUE(view.style.slices[0].shown);
+  EXPECT_FALSE(view.style.slices[1].shown);
+  driver.ui.click("slices/x");
+  driver.ui.settle();
+  EXPECT_FALSE(view.layers.has(Layer::Slices));
+}
+
+TEST_F(InspectorViewTest, APictureOfOtherParametersSaysSo) {
+  InspectorDriver driver;
+  driver.open(run());
+  driver.ui.click("tab/What if");
+  driver.ui.enter("what-if/saliency.isolation_distance_m/text", "31");
+  driver.ui.settle();
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder_->path());
+  driver.ui.click("status/save picture");
+  std::filesystem::current_path(before);
+  EXPECT_EQ(driver.picture_title, "saliency.isolation_distance_m = 0.031");
+}
+
+TEST_F(InspectorViewTest, WhereTheLegendHasNoRoomItIsToldUnderTheMouse) {
+  InspectorDriver driver({}, 700, 500);
+  driver.open(run());
+  EXPECT_FALSE(driver.ui.has("view/legend"));
+  driver.ui.moveMouse(5, 495);
+  driver.ui.settle();
+  const RgbImage before = driver.ui.image();
+  driver.ui.hover("view/legend/fold");
+  driver.ui.settle();
+  EXPECT_GT(InspectorDriver::differing(before, driver.ui.image()), 5000);
 }
 
 TEST_F(InspectorViewTest, ARunThatIsWholeAndThenDeletedIsTold) {

@@ -39,8 +39,8 @@ TEST(PickText, OfASegmentSaysItsPlaceInTheOrderAndItsFactors) {
   const Segment& segment = data.record->saliency->segments[second->segment];
   const std::string text = textOfPicked(data, PickedKind::Segment, segment.label);
   ASSERT_EQ(second - order.begin(), 1);
-  EXPECT_THAT(text, HasSubstr("segment " + std::to_string(segment.label) + ", tried 2nd of " +
-                              std::to_string(order.size()) + ", "));
+  EXPECT_THAT(text, HasSubstr("segment with label " + std::to_string(segment.label) + ", no. 2 of " +
+                              std::to_string(order.size()) + " in the order of trying, "));
   for (const char* word : {"saliency ", "F ", "d_min ", "d_max "}) EXPECT_THAT(text, HasSubstr(word));
 }
 
@@ -51,7 +51,7 @@ TEST(PickText, OfASegmentWithoutContourPointsSaysThatItIsNotTried) {
   std::erase_if(search->segments, [](const SegmentSearch& s) { return s.segment == 0; });
   record->search = search;
   data.record = record;
-  EXPECT_THAT(textOfPicked(data, PickedKind::Segment, 1), HasSubstr("segment 1, not tried"));
+  EXPECT_THAT(textOfPicked(data, PickedKind::Segment, 1), HasSubstr("segment with label 1, not tried"));
 }
 
 TEST(PickText, OfAFrustumSaysRankAndScore) {

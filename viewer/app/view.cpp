@@ -29,12 +29,13 @@ struct ViewOptions {
 };
 
 /// A picture of the view with caption and legend, as snapshots have it.
-RgbImage pictureOf(const SceneFrame& frame, const ViewSettings& view, GlContext& context, int width,
-                   int height) {
+RgbImage pictureOf(const SceneFrame& frame, const ViewSettings& view, const std::string& what_if,
+                   GlContext& context, int width, int height) {
   Scene scene;
   scene.setFrame(frame);
   OffscreenRenderer renderer(context);
-  const Recipe recipe{"inspector", "As seen in the inspector", "", view, viewFigures};
+  const std::string title = what_if.empty() ? "As seen in the inspector" : "What if " + what_if;
+  const Recipe recipe{"inspector", title, "", view, viewFigures};
   return drawRecipe(scene, renderer, recipe, frame, width, height);
 }
 
@@ -61,7 +62,7 @@ int drawWindow(const GlobalOptions& global, const ViewOptions& options,
   OffscreenUi ui(context, inspector, width, height);
   inspector.open(files);
   ui.settle();
-  if (const auto error = inspector.error()) throw std::runtime_error(*error);
+  if (const auto error = inspector.error()) throw InputError("view", *error);
   writePng(ui.image(), options.picture);
   say(global, options.picture);
   return 0;
@@ -91,7 +92,7 @@ int openWindow(const GlobalOptions& global, const ViewOptions& options,
   } catch (...) {
     error = std::current_exception();
   }
-  Preferences last = inspector.preferences();
+  Preferences last = inspector.toKeep();
   last.window_width = window.width();
   last.window_height = window.height();
   savePreferences(kept, last);

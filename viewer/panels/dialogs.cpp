@@ -54,7 +54,6 @@ constexpr Hint kMouse[] = {{"left drag", "turn about the scene, z stays up"},
                            {"drop a file", "open it"}};
 
 constexpr Hint kPanels[] = {{"drag a border between panels", "make one larger"},
-                            {"Ctrl+click on a slider", "type a value"},
                             {"right click on a table head", "choose columns"},
                             {"commands: arrows, Enter, Esc", "choose, run, close"},
                             {"files: arrows, Enter, Esc", "choose, open, close"},

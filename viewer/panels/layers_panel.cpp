@@ -135,6 +135,15 @@ Box workspaceOf(const PanelContext& context) {
   return {Eigen::Vector3d(-1, -1, 0), Eigen::Vector3d(1, 1, 1)};
 }
 
+/// With the first slice the layer comes, with the last one it goes.
+void showSlice(ViewSettings& view, int axis, bool on) {
+  auto& slices = view.style.slices;
+  if (!view.layers.has(Layer::Slices))
+    for (SlicePlane& plane : slices) plane.shown = false;
+  slices[axis].shown = on;
+  view.layers.set(Layer::Slices, std::ranges::any_of(slices, &SlicePlane::shown));
+}
+
 void sliceRows(PanelContext& context) {
   const Box box = workspaceOf(context);
   static constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
@@ -142,11 +151,11 @@ void sliceRows(PanelContext& context) {
   for (int axis = 0; axis < 3; ++axis) {
     SlicePlane& plane = view.style.slices[axis];
     const std::string name = std::string("slices/") + kAxes[axis];
-    if (context.widgets.toggle(name, kAxes[axis], plane.shown) && plane.shown)
-      view.layers.set(Layer::Slices, true);
+    bool on = plane.shown && view.layers.has(Layer::Slices);
+    if (context.widgets.toggle(name, kAxes[axis], on)) showSlice(view, axis, on);
     ImGui::SameLine();
     double at_m = plane.at_m.value_or(box.center()[axis]);
-    ImGui::BeginDisabled(!plane.shown);
+    ImGui::BeginDisabled(!on);
     if (context.widgets.slider(name + "/at", "", at_m, box.min()[axis], box.max()[axis], "%.3f m"))
       plane.at_m = at_m;
     ImGui::EndDisabled();
@@ -158,9 +167,12 @@ void clipRows(PanelContext& context) {
   const Box box = workspaceOf(context);
   std::optional<Box>& clip = context.preferences.view.clip;
   bool on = clip.has_value();
+  // What lies on a border of the workspace, a table say, is not torn.
+  const double margin_m = 0.02 * box.sizes().maxCoeff();
+  const Box limits(box.min().array() - margin_m, box.max().array() + margin_m);
   if (context.widgets.toggle("clip/on", "show only a box", on)) {
     clip.reset();
-    if (on) clip = box;
+    if (on) clip = limits;
   }
   if (!clip) return;
   const double half = (ImGui::GetContentRegionAvail().x - ImGui::GetFontSize() * 2.0) / 2.0;
@@ -170,11 +182,11 @@ void clipRows(PanelContext& context) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(kAxes[axis]);
     ImGui::SameLine();
-    const bool moved_low = context.widgets.slider(name + " from", "", low, box.min()[axis], box.max()[axis],
-                                                  "%.2f", false, half);
+    const bool moved_low = context.widgets.slider(name + " from", "", low, limits.min()[axis],
+                                                  limits.max()[axis], "%.2f m", false, half);
     ImGui::SameLine();
-    const bool moved_high =
-        context.widgets.slider(name + " to", "", high, box.min()[axis], box.max()[axis], "%.2f", false, half);
+    const bool moved_high = context.widgets.slider(name + " to", "", high, limits.min()[axis],
+                                                   limits.max()[axis], "%.2f m", false, half);
     if (moved_low) clip->min()[axis] = std::min(low, clip->max()[axis]);
     if (moved_high) clip->max()[axis] = std::max(high, clip->min()[axis]);
   }

@@ -10,7 +10,7 @@ namespace vantage {
 namespace {
 
 constexpr float kTextScale = 0.87f;  ///< of the legend, which stands in the way of the scene
-constexpr float kMark_em = 0.8f, kScale_em = 13.0f, kNarrowScale_em = 8.0f;
+constexpr float kMark_em = 0.8f, kScale_em = 13.0f, kNarrowScale_em = 8.0f, kTooltip_em = 26.0f;
 constexpr float kGap_px = 8.0f;
 
 /// The sign of a legend entry in a square of the given size.
@@ -69,20 +69,35 @@ float widthOf(const std::vector<const LayerNotes*>& notes) {
          0.5f * em;  // else rounding breaks the widest line
 }
 
-void drawNotes(const LayerNotes& notes, const Theme& theme) {
-  for (const LegendEntry& entry : notes.legend) drawLegendEntry(entry, theme);
+/// \param width_px of a line; 0: what is left
+void drawNotes(const LayerNotes& notes, const Theme& theme, float width_px = 0.0f) {
+  for (const LegendEntry& entry : notes.legend) drawLegendEntry(entry, theme, width_px);
   if (!notes.scale) return;
-  wrappedText(notes.scale->title);
-  drawColorScale(*notes.scale, std::min(ImGui::GetFontSize() * kScale_em, ImGui::GetContentRegionAvail().x),
+  wrappedText(notes.scale->title, width_px);
+  drawColorScale(*notes.scale,
+                 std::min(ImGui::GetFontSize() * kScale_em,
+                          width_px > 0.0f ? width_px : ImGui::GetContentRegionAvail().x),
                  theme);
 }
 
+/// In less it would cover the scene.
+bool hasRoomForLegend(const ViewArea& area) {
+  constexpr float kLeastWidth_em = 26.0f, kLeastHeight_em = 20.0f;
+  const float em = ImGui::GetFontSize();
+  return area.width() >= kLeastWidth_em * em && area.height() >= kLeastHeight_em * em;
+}
+
 /// Opens and closes the legend.
-void foldButton(PanelContext& context, const std::string& view) {
-  bool& shown = context.preferences.show_legend;
-  if (context.widgets.button(view + "/legend/fold", shown ? "▼ legend" : "▶ legend", true,
-                             shown ? "hide the legend (G)" : "show what colours and signs mean (G)"))
-    shown = !shown;
+void foldButton(PanelContext& context, const std::string& view, bool shown) {
+  if (context.widgets.button(view + "/legend/fold", shown ? "▼ legend" : "▶ legend"))
+    context.preferences.show_legend = !context.preferences.show_legend;
+}
+
+/// While it is folded, or there is no room for it.
+void tellNotes(const std::vector<const LayerNotes*>& notes, const Theme& theme) {
+  ImGui::BeginTooltip();
+  for (const LayerNotes* layer : notes) drawNotes(*layer, theme, kTooltip_em * ImGui::GetFontSize());
+  ImGui::EndTooltip();
 }
 
 /// Begins a window on the scene with its lower left corner there; to be closed with ImGui::End().
@@ -134,10 +149,12 @@ float legendOverlay(PanelContext& context, const ViewArea& area, const LayerNote
   if (notes.empty()) return 0.0f;
   const float left = area.left + kGap_px, bottom = area.bottom - kGap_px;
   beginOverlay(area.name + " fold", left, bottom, 0);
-  foldButton(context, area.name);
+  const bool shown = context.preferences.show_legend && hasRoomForLegend(area);
+  foldButton(context, area.name, shown);
   const ImVec2 button = ImGui::GetWindowSize();
+  if (!shown && ImGui::IsItemHovered()) tellNotes(notes, context.theme);
   ImGui::End();
-  if (!context.preferences.show_legend) return button.x + kGap_px;
+  if (!shown) return button.x + kGap_px;
   const float width = std::min(widthOf(notes), kLargestShare * area.width());
   ImGui::SetNextWindowSize({width, 0.0f});
   ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {width, std::max(1.0f, bottom - button.y - area.top)});

@@ -39,7 +39,8 @@ void describe(const StepSummary& step) {
     ImGui::TextUnformatted("Map after the last scan");
   else
     ImGui::Text("Step %d, %s planner", step.step, step.planner.c_str());
-  ImGui::Text("unknown in the workspace: %s voxels", grouped(step.unknown_voxels).c_str());
+  ImGui::Text("unknown in the workspace: %s voxels of the planner's map",
+              grouped(step.unknown_voxels).c_str());
   if (step.coverage) ImGui::Text("coverage of the objects: %.1f %%", 100.0 * *step.coverage);
   if (step.gain) ImGui::Text("gain of the chosen view: %s rays", grouped(std::llround(*step.gain)).c_str());
   if (step.gain_voxels) ImGui::Text("predicted: %s voxels", grouped(*step.gain_voxels).c_str());

@@ -16,8 +16,7 @@
 namespace vantage {
 namespace {
 
-constexpr float kWordy_em = 9.0f;  ///< narrower pictures have no room for a legend
-constexpr float kWidth_em = 14.0f, kGap_px = 10.0f;
+constexpr float kLegend_em = 24.0f, kWidth_em = 14.0f, kGap_px = 10.0f;
 constexpr float kSmallest_px = 60.0f;  ///< nothing can be seen in less
 constexpr double kNear_m = 0.8;        ///< what the eye of the picture turns about, of no matter here
 
@@ -76,8 +75,6 @@ class Column {
     ImGui::SetCursorScreenPos({low.x + kPad, high.y + kPad});
     ImGui::BeginGroup();
     wrappedText(words.title, width_ - 2 * kPad);
-    if (width_ >= kWordy_em * ImGui::GetFontSize())
-      for (const LegendEntry& entry : words.legend) drawLegendEntry(entry, context_.theme, width_ - 2 * kPad);
     if (words.scale) drawColorScale(*words.scale, width_ - 2 * kPad, context_.theme);
     ImGui::EndGroup();
     const ImVec2 end{high.x, ImGui::GetItemRectMax().y + kPad};
@@ -86,10 +83,21 @@ class Column {
     draw.ChannelsMerge();
     draw.AddRect(low, end, packed(border), 0.0f, 0, 2.0f);
     context_.widgets.note(area_.name + "/" + name, {low.x, low.y, end.x, end.y, true});
+    if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(low, end)) tellLegend(words.legend);
     top_ = end.y + kGap_px;
   }
 
  private:
+  /// There is no room for it below the picture.
+  void tellLegend(const std::vector<LegendEntry>& legend) {
+    if (legend.empty()) return;
+    ImGui::BeginTooltip();
+    for (const LegendEntry& entry : legend)
+      drawLegendEntry(entry, context_.theme, kLegend_em * ImGui::GetFontSize());
+    ImGui::EndTooltip();
+    context_.widgets.note(area_.name + "/inset legend");
+  }
+
   PanelContext& context_;
   ViewArea area_;
   float width_, top_;

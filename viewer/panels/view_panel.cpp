@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <utility>
 
@@ -22,6 +23,14 @@ SceneTheme sceneTheme(const Theme& theme) {
 
 ImTextureID textureId(unsigned handle) {
   return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(handle));
+}
+
+/// To the millimetre.
+std::string exactLength(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, metres < 1.0 ? "%.1f cm" : "%.3f m",
+                metres < 1.0 ? 100.0 * metres : metres);
+  return text;
 }
 
 }  // namespace
@@ -251,9 +260,10 @@ LayerNotes ViewPanel::marks(PanelContext& context, double left, double top) {
     if (const auto at = marks.at(end)) marks.draw.AddCircleFilled(*at, 4.0f, packed(theme.chosen));
   if (measured_.size() == 2) {
     marks.line(measured_[0], measured_[1], packed(theme.chosen), 2.0f);
-    marks.text(0.5 * (measured_[0] + measured_[1]), lengthText((measured_[1] - measured_[0]).norm()), theme);
+    marks.text(0.5 * (measured_[0] + measured_[1]), exactLength((measured_[1] - measured_[0]).norm()), theme);
   } else if (measuring_) {
-    marks.draw.AddText({low.x + 12.0f, low.y + 12.0f}, packed(theme.accent),
+    constexpr float kBelowTitle = 40.0f;
+    marks.draw.AddText({low.x + 12.0f, low.y + kBelowTitle}, packed(theme.accent),
                        measured_.empty() ? "measuring: click the first point" : "click the second point");
   }
   marks.draw.PopClipRect();

@@ -3,6 +3,8 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include <utility>
+
 #include "viewer/text_lines.h"
 
 namespace vantage {
@@ -70,8 +72,8 @@ bool Widgets::slider(const std::string& name, const std::string& label, double& 
                      double high, const char* format, bool logarithmic, double width_px) {
   ImGui::SetNextItemWidth(width_px > 0.0 ? static_cast<float>(width_px) : -FLT_MIN);
   const float width = ImGui::CalcItemWidth();
-  const ImGuiSliderFlags flags =
-      ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+  const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput |
+                                 (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
   const bool moved = ImGui::SliderScalar(idOf(name, label).c_str(), ImGuiDataType_Double, &value, &low, &high,
                                          format, flags);
   note(name);
@@ -83,9 +85,13 @@ bool Widgets::field(const std::string& name, std::string& text, double width_px,
   ImGui::SetNextItemWidth(width_px > 0.0 ? static_cast<float>(width_px) : -FLT_MIN);
   const bool entered = ImGui::InputTextWithHint(("##" + name).c_str(), hint.c_str(), &text,
                                                 ImGuiInputTextFlags_EnterReturnsTrue);
-  const bool left = ImGui::IsItemDeactivatedAfterEdit();
   note(name);
-  return entered || left;
+  if (ImGui::IsItemActive()) typed_ = {name, text};
+  if (entered || !ImGui::IsItemDeactivatedAfterEdit() || typed_.name != name) return entered;
+  // Left by Tab or a click elsewhere: Dear ImGui has forgotten what was typed. Esc takes it back.
+  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) return false;
+  text = std::exchange(typed_, {}).text;
+  return true;
 }
 
 bool Widgets::combo(const std::string& name, const std::string& label,

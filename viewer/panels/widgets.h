@@ -30,7 +30,8 @@ class Widgets {
   bool toggle(const std::string& name, const std::string& label, bool& on);
   /// Radio button.
   bool choice(const std::string& name, const std::string& label, bool active);
-  /// Slider; `format` as printf. `width_px` 0: what is left of the line.
+  /// Slider, for the mouse alone: numbers are typed into fields; `format` as printf. `width_px` 0: what is
+  /// left of the line.
   bool slider(const std::string& name, const std::string& label, double& value, double low, double high,
               const char* format, bool logarithmic = false, double width_px = 0.0);
   /// Line of text that is taken over with Enter or when the field is left; true if it was changed.
@@ -50,7 +51,12 @@ class Widgets {
   std::vector<std::string> names() const;
 
  private:
+  struct Typed {
+    std::string name, text;
+  };
+
   std::map<std::string, WidgetBox, std::less<>> boxes_;
+  Typed typed_;  ///< the field that is being typed into
 };
 
 /// The text with new lines where the room to the right ends, broken as brokenAtSpaces() does: Dear ImGui
