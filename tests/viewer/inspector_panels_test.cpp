@@ -287,5 +287,22 @@ TEST_F(InspectorPanelsTest, VoxelsAreNotCountedAnewWhileASliderIsMoved) {
   driver.ui.settle();
 }
 
+TEST_F(InspectorPanelsTest, TheCheatSheetStaysInsideTheWindow) {
+  struct Size {
+    int width, height;
+  };
+  for (const Size size : {Size{1280, 800}, Size{900, 600}, Size{640, 400}}) {
+    InspectorDriver driver({}, size.width, size.height);
+    driver.ui.settle();
+    driver.ui.press({Key::F1});
+    driver.ui.settle();
+    const WidgetBox* box = driver.inspector.widgets().find("cheat sheet");
+    ASSERT_TRUE(box);
+    EXPECT_GE(box->left, 0.0);
+    EXPECT_LE(box->right, size.width);
+    EXPECT_LE(box->bottom, size.height);
+  }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -4,7 +4,8 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <span>
+#include <string>
+#include <vector>
 
 #include "viewer/panels/plot.h"
 
@@ -39,62 +40,62 @@ void commandLine(PanelContext& context, const Command& command, bool selected) {
   ImGui::TextDisabled("%s", keys.c_str());
 }
 
-/// What is done, and what it does.
+/// A line of the cheat sheet: keys, or what the mouse does, and what that is good for.
 struct Hint {
-  const char* what;
-  const char* does;
+  std::string group, what, does;
+  bool wide = true;  ///< room for a phrase; keys need less
 };
 
-constexpr Hint kMouse[] = {{"left drag", "turn about the scene, z stays up"},
-                           {"right, middle or Shift+left drag", "move the scene"},
-                           {"wheel", "nearer and farther, toward the cursor"},
-                           {"hover", "voxel, segment or view under the cursor"},
-                           {"double click", "look at this point"},
-                           {"click on a frustum or a table row", "select the view and explain it"},
-                           {"drop a file", "open it"}};
-
-constexpr Hint kPanels[] = {{"drag a border between panels", "make one larger"},
-                            {"right click on a table head", "choose columns"},
-                            {"commands: arrows, Enter, Esc", "choose, run, close"},
-                            {"files: arrows, Enter, Esc", "choose, open, close"},
-                            {"files: Tab, Backspace", "complete a path, folder above"},
-                            {"after F6: arrows, Space, Enter", "walk the panels; no commands"}};
-
-void heading(const PanelContext& context, const char* text) {
-  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(packed(context.theme.accent)), "%s", text);
+std::vector<Hint> hintsOf(const Commands& commands) {
+  std::vector<Hint> all;
+  for (const Command& command : commands.all())
+    if (command.keys.key != Key::None)
+      all.push_back({command.group, textOf(command.keys), command.title, false});
+  const std::string mouse = "Mouse", panels = "Panels and dialogs";
+  for (const Hint& hint :
+       {Hint{mouse, "left drag", "turn about the scene"},
+        Hint{mouse, "right, middle or Shift+left drag", "move the scene"},
+        Hint{mouse, "wheel", "nearer and farther"}, Hint{mouse, "hover", "what is under the cursor"},
+        Hint{mouse, "double click", "look at this point"},
+        Hint{mouse, "click on a frustum or a table row", "select and explain it"},
+        Hint{mouse, "drop a file", "open it"},
+        Hint{panels, "drag a border between panels", "make one larger"},
+        Hint{panels, "right click on a table head", "choose columns"},
+        Hint{panels, "commands: arrows, Enter, Esc", "choose, run, close"},
+        Hint{panels, "files: arrows, Enter, Esc", "choose, open, close"},
+        Hint{panels, "files: Tab, Backspace", "complete, folder above"},
+        Hint{panels, "after F6: arrows, Space, Enter", "for the panels alone"}})
+    all.push_back(hint);
+  return all;
 }
 
-/// A column of the table that is open.
-void hints(const PanelContext& context, const char* title, std::span<const Hint> all) {
-  ImGui::TableNextColumn();
-  heading(context, title);
-  for (const Hint& hint : all) {
-    ImGui::TextUnformatted(hint.what);
-    ImGui::SameLine(ImGui::GetFontSize() * 15.5f);
-    ImGui::TextUnformatted(hint.does);
-  }
-}
-
-/// Commands that have keys, group after group, in two columns.
-void commandKeys(const PanelContext& context) {
-  if (!ImGui::BeginTable("sheet", 2, ImGuiTableFlags_SizingStretchSame)) return;
-  ImGui::TableNextColumn();
-  const auto& all = context.commands.all();
-  const auto with_keys =
-      std::ranges::count_if(all, [](const Command& command) { return command.keys.key != Key::None; });
+/// All hints under the headings of their groups, in columns of equal length.
+void hintTable(const PanelContext& context, int columns) {
+  const std::vector<Hint> all = hintsOf(context.commands);
+  if (!ImGui::BeginTable("sheet", columns, ImGuiTableFlags_SizingStretchSame)) return;
+  std::size_t lines = all.size();
+  for (std::size_t i = 0; i < all.size(); ++i) lines += i == 0 || all[i].group != all[i - 1].group;
+  lines += 2 * (columns - 1);  // rounded up, and a group that goes on in the next column is named again
+  const std::size_t most = lines / columns;
+  std::size_t line = most;
   std::string group;
-  int line = 0;
-  for (const Command& command : all) {
-    if (command.keys.key == Key::None) continue;
-    if (line++ == (with_keys + 1) / 2) {
+  for (const Hint& hint : all) {
+    if (line >= most) {
       ImGui::TableNextColumn();
       group.clear();
+      line = 0;
     }
-    if (group != command.group) heading(context, command.group.c_str());
-    group = command.group;
-    ImGui::TextUnformatted(textOf(command.keys).c_str());
-    ImGui::SameLine(ImGui::GetFontSize() * 8.0f);
-    ImGui::TextUnformatted(command.title.c_str());
+    if (group != hint.group) {
+      ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(packed(context.theme.accent)), "%s",
+                         hint.group.c_str());
+      ++line;
+    }
+    group = hint.group;
+    ImGui::TextUnformatted(hint.what.c_str());
+    const float em = ImGui::GetFontSize();
+    ImGui::SameLine((hint.wide ? 15.5f : 8.0f) * em);
+    ImGui::TextUnformatted(hint.does.c_str());
+    ++line;
   }
   ImGui::EndTable();
 }
@@ -145,18 +146,16 @@ void CommandPalette::draw(PanelContext& context) {
 
 void CheatSheet::draw(PanelContext& context) {
   if (!open_) return;
-  center(60.0, 0.05);
+  constexpr double kColumn_em = 27.0, kTop = 0.05;
+  const ImVec2 room = ImGui::GetIO().DisplaySize;
+  const int columns = std::clamp(static_cast<int>(room.x / (kColumn_em * ImGui::GetFontSize())), 1, 3);
+  center(kColumn_em * columns + 2.0, kTop);
+  ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {room.x, room.y * static_cast<float>(1.0 - 2.0 * kTop)});
   bool stays = true;
   if (ImGui::Begin("Keys and mouse", &stays, kDialog)) {
     const ImVec2 at = ImGui::GetWindowPos(), extent = ImGui::GetWindowSize();
     context.widgets.note("cheat sheet", {at.x, at.y, at.x + extent.x, at.y + extent.y, true});
-    commandKeys(context);
-    ImGui::Separator();
-    if (ImGui::BeginTable("hints", 2, ImGuiTableFlags_SizingStretchSame)) {
-      hints(context, "Mouse", kMouse);
-      hints(context, "Panels and dialogs", kPanels);
-      ImGui::EndTable();
-    }
+    hintTable(context, columns);
     if (pressed(Key::Escape)) stays = false;
   }
   ImGui::End();
