@@ -93,10 +93,6 @@ void UiHost::setLook(ThemeName theme, double font_px) {
   state_->restyle = true;
 }
 
-double UiHost::fontPx() const {
-  return state_->font_px;
-}
-
 void UiHost::makeCurrent() {
   state_->gl.makeCurrent();
   ImGui::SetCurrentContext(state_->ui);

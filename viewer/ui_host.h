@@ -21,7 +21,6 @@ class UiHost {
 
   /// Text height in pixels and theme from the next frame on.
   void setLook(ThemeName theme, double font_px);
-  double fontPx() const;
 
   /// Makes the context and ImGui's context current.
   void makeCurrent();

@@ -27,7 +27,7 @@ constexpr int kSmallest = 16;
 constexpr double kSmallShare = 0.5;
 constexpr int kSamples = 4;                                    // what the software driver offers at most
 constexpr double kTurnPerHeight_rad = 3.14159265358979323846;  // a drag across the picture turns by half
-constexpr double kZoomPerHeight = 8.0, kZoomPerNotch = 1.15;
+constexpr double kZoomPerNotch = 1.15;
 
 double secondsSince(Clock::time_point from) {
   return std::chrono::duration<double>(Clock::now() - from).count();
@@ -194,16 +194,12 @@ void Viewport::move(const Eigen::Vector2d& at_px) {
   state_->cursor = at_px;
   if (!state_->drag || moved.isZero()) return;
   const Eye eye = state_->scene.eye();
-  const Eigen::Vector2d middle(state_->size.width / 2.0, state_->size.height / 2.0);
   const double turn_rad = kTurnPerHeight_rad / state_->size.height;
   switch (*state_->drag) {
     case Drag::Orbit:
       return state_->setEye(orbited(eye, -moved.x() * turn_rad, moved.y() * turn_rad));
     case Drag::Pan:
       return state_->setEye(panned(eye, moved, state_->size));
-    case Drag::Zoom:
-      return state_->setEye(
-          zoomed(eye, std::pow(kZoomPerHeight, moved.y() / state_->size.height), middle, state_->size));
   }
 }
 

@@ -15,7 +15,7 @@ class vtkRenderer;
 namespace vantage {
 
 /// What a drag with the mouse does to the eye.
-enum class Drag { Orbit, Pan, Zoom };
+enum class Drag { Orbit, Pan };
 
 /// A scene's view as an OpenGL texture that follows the mouse: for a window's panel, or without any window.
 /// Draws only if something changed. Where a full picture takes longer than kQuick_s (software drivers), a

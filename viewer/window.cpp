@@ -180,11 +180,6 @@ void Window::copy(const std::string& utf8) {
   glfwSetClipboardString(state_->window, utf8.c_str());
 }
 
-std::string Window::pasted() const {
-  const char* text = glfwGetClipboardString(state_->window);
-  return text ? text : "";
-}
-
 int Window::width() const {
   int width = 0, height = 0;
   glfwGetWindowSize(state_->window, &width, &height);

@@ -33,7 +33,6 @@ class Window {
   /// Draws a frame soon; any thread.
   void wake();
   void copy(const std::string& utf8);
-  std::string pasted() const;
   /// Size of the window, in the units of WindowOptions.
   int width() const;
   int height() const;

@@ -11,7 +11,6 @@ class CommandPalette {
  public:
   void open();
   void draw(PanelContext& context);
-  bool isOpen() const { return open_; }
 
  private:
   bool open_ = false;

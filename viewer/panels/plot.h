@@ -33,9 +33,6 @@ struct PlotArea {
   }
 };
 
-/// Round numbers from 0 to at least `largest`, about `wanted` of them.
-std::vector<double> ticks(double largest, int wanted);
-
 /// 41102 -> "41.1 k", 0.25 -> "0.25".
 std::string shortNumber(double value);
 

@@ -260,6 +260,8 @@ LayerNotes ViewPanel::marks(PanelContext& context, double left, double top) {
     if (const auto at = marks.at(end)) marks.draw.AddCircleFilled(*at, 4.0f, packed(theme.chosen));
   if (measured_.size() == 2) {
     marks.line(measured_[0], measured_[1], packed(theme.chosen), 2.0f);
+    if (const auto from = marks.at(measured_[0]), to = marks.at(measured_[1]); from && to)
+      context.widgets.note(name_ + "/measured", {from->x, from->y, to->x, to->y, true});
     marks.text(0.5 * (measured_[0] + measured_[1]), exactLength((measured_[1] - measured_[0]).norm()), theme);
   } else if (measuring_) {
     constexpr float kBelowTitle = 40.0f;

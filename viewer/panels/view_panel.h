@@ -35,8 +35,6 @@ class ViewPanel {
   /// Two clicks measure a distance while it is on.
   bool measuring() const { return measuring_; }
   void toggleMeasuring();
-  /// What is under the mouse.
-  const std::optional<Picked>& hovered() const { return hovered_; }
   /// Looks through the explained view.
   void lookThroughView(PanelContext& context);
   void orbitBy(double left_rad, double up_rad);
