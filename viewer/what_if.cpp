@@ -241,7 +241,7 @@ void WhatIf::cancel() {
   stopped_ = stopped_ || busy();
   suspend();
   if (state_ == WhatIfState::Rerunning || state_ == WhatIfState::Checking || state_ == WhatIfState::Scoring)
-    fail("cancelled; earlier parameters are shown");
+    fail("cancelled; results of earlier parameters are shown");
 }
 
 void WhatIf::runAgain() {

@@ -140,6 +140,18 @@ TEST_F(InspectorViewTest, InASmallWindowStagesAreChosenFromAList) {
   EXPECT_LE(driver.inspector.widgets().find("timeline/stages")->right, 700.0);
 }
 
+TEST_F(InspectorViewTest, ButtonsOfANarrowPanelGoOnInTheNextLine) {
+  InspectorDriver driver({}, 700, 500);
+  driver.open(run());
+  driver.ui.click("tab/What if");
+  const double border = driver.inspector.widgets().find("splitter/left")->right;
+  for (const char* button : {"undo", "redo", "reset all", "cancel", "copy", "write config…"}) {
+    const WidgetBox* box = driver.inspector.widgets().find(std::string("what-if/") + button);
+    ASSERT_TRUE(box) << button;
+    EXPECT_LE(box->right, border) << button;
+  }
+}
+
 TEST_F(InspectorViewTest, TheTitleNeverRunsOffTheWindow) {
   for (const int width : {420, 700, 1280}) {
     InspectorDriver driver({}, width, 500);

@@ -310,14 +310,6 @@ class Table {
   bool sorted_ = false;  ///< anew in this frame
 };
 
-/// The check box that comes next stays on the line if there is room for it.
-void sameLineIfFits(const char* label) {
-  const ImGuiStyle& style = ImGui::GetStyle();
-  const float width = ImGui::GetFrameHeight() + style.ItemInnerSpacing.x + ImGui::CalcTextSize(label).x;
-  ImGui::SameLine();
-  if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
-}
-
 /// Part of a view's number, and a button that empties it, as Esc does. True if Enter was pressed.
 bool numberField(Widgets& widgets, std::string& text) {
   const auto pressed = [](Key key) { return ImGui::IsKeyPressed(static_cast<int>(key), false); };
@@ -346,14 +338,14 @@ void filterLine(PanelContext& context) {
   ImGui::SameLine();
   context.widgets.toggle("candidates/ranked only", "ranked", filter.ranked_only);
   tip("only views that are good enough, and segments that are not scored yet");
-  sameLineIfFits("reachable");
+  sameLineIfFits("reachable", Follows::CheckBox);
   context.widgets.toggle("candidates/reachable only", "reachable", filter.reachable_only);
   tip("without views that the robot was asked for and cannot take; those that it was not asked for stay");
   if (!table.hierarchical()) {
     const auto view = context.model.explainedView();
     const CandidateRow* row = view ? table.find(*view) : nullptr;
     bool only = filter.group.has_value();
-    sameLineIfFits("segment");
+    sameLineIfFits("segment", Follows::CheckBox);
     ImGui::BeginDisabled(!only && !row);
     if (context.widgets.toggle("candidates/segment only", "segment", only)) {
       filter.group.reset();

@@ -144,12 +144,13 @@ void buttons(PanelContext& context, const Explanation& e) {
                                         through->enabled() && e.row.has_value(),
                                         through->title + "  " + textOf(through->keys)))
     through->run();
-  ImGui::SameLine();
   LayerSet& layers = context.preferences.view.layers;
   const std::vector<Layer> counted = countedLayers(context);
   const bool on = std::ranges::all_of(counted, [&](Layer layer) { return layers.has(layer); });
-  if (context.widgets.button("explain/show counted", on ? "hide what it counts" : "show what it counts",
-                             e.row.has_value(), "voxels on which its rays end, and what is in their way"))
+  const std::string label = on ? "hide what it counts" : "show what it counts";
+  sameLineIfFits(label);
+  if (context.widgets.button("explain/show counted", label, e.row.has_value(),
+                             "voxels on which its rays end, and what is in their way"))
     for (const Layer layer : counted) layers.set(layer, !on);
   if (e.is_winner || !e.other) return;
   if (context.widgets.button("explain/select winner", "select the chosen view", true,

@@ -194,11 +194,11 @@ void header(PanelContext& context) {
       c->run();
   };
   command("what-if.undo", "undo");
-  ImGui::SameLine();
+  sameLineIfFits("redo");
   command("what-if.redo", "redo");
-  ImGui::SameLine();
+  sameLineIfFits("reset all");
   command("what-if.reset", "reset all");
-  ImGui::SameLine();
+  sameLineIfFits(what_if.cancelled() ? "run again" : "cancel");
   if (what_if.cancelled())
     command("what-if.run again", "run again");
   else
@@ -207,7 +207,7 @@ void header(PanelContext& context) {
     context.copy(what_if.edits().toml());
     context.model.say(Notice::Level::Info, "the changed parameters are on the clipboard, as TOML");
   }
-  ImGui::SameLine();
+  sameLineIfFits("write config…");
   command("file.write config", "write config…");
 }
 

@@ -29,6 +29,15 @@ void wrappedText(const std::string& text, double width_px) {
   ImGui::TextUnformatted(inLines(text, width_px).c_str());
 }
 
+void sameLineIfFits(const std::string& label, Follows what) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float text = ImGui::CalcTextSize(label.c_str()).x;
+  const float width = text + (what == Follows::Button ? 2.0f * style.FramePadding.x
+                                                      : ImGui::GetFrameHeight() + style.ItemInnerSpacing.x);
+  const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+  if (ImGui::GetItemRectMax().x + style.ItemSpacing.x + width <= end) ImGui::SameLine();
+}
+
 void tip(const std::string& text) {
   if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::BeginTooltip();

@@ -65,6 +65,10 @@ std::string inLines(const std::string& text, double width_px = 0.0);
 /// Draws it.
 void wrappedText(const std::string& text, double width_px = 0.0);
 
+enum class Follows { Button, CheckBox };
+/// The button or check box with that label, which comes next, stays on the line if there is room for it.
+void sameLineIfFits(const std::string& label, Follows what = Follows::Button);
+
 /// The text in a tooltip if the item that was submitted last is under the mouse for a while.
 void tip(const std::string& text);
 
