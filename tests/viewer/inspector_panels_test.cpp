@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "tests/support/process.h"
-#include "tests/support/recorded_run.h"
+#include "tests/viewer/ball_run.h"
 #include "tests/viewer/inspector_driver.h"
 #include "viewer/candidates.h"
 
@@ -15,20 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 using testing::InspectorDriver;
 
-/// Records a run of two steps once for all tests.
-class InspectorPanelsTest : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    unsetenv("DISPLAY");
-    folder_ = new test::TemporaryFolder;
-    testing::recordRun(testing::ballScene(), {"exploration.steps=2"}, run());
-  }
-  static void TearDownTestSuite() { delete folder_; }
-  static std::string run() { return *folder_ / "ball.vantage"; }
-
-  static test::TemporaryFolder* folder_;
-};
-test::TemporaryFolder* InspectorPanelsTest::folder_ = nullptr;
+class InspectorPanelsTest : public testing::WithBallRun<2> {};
 
 std::string rowName(std::uint32_t id) {
   return "candidates/row " + std::to_string(id);

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "tests/support/process.h"
-#include "tests/support/recorded_run.h"
+#include "tests/viewer/ball_run.h"
 #include "tests/viewer/inspector_driver.h"
 #include "viewer/commands.h"
 
@@ -16,20 +16,7 @@ namespace {
 
 using testing::InspectorDriver;
 
-/// Records the run once for all tests.
-class InspectorTest : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    unsetenv("DISPLAY");
-    folder_ = new test::TemporaryFolder;
-    testing::recordRun(testing::ballScene(), {"exploration.steps=3"}, run());
-  }
-  static void TearDownTestSuite() { delete folder_; }
-  static std::string run() { return *folder_ / "ball.vantage"; }
-
-  static test::TemporaryFolder* folder_;
-};
-test::TemporaryFolder* InspectorTest::folder_ = nullptr;
+class InspectorTest : public testing::WithBallRun<3> {};
 
 const std::string kB = "saliency.isolation_distance_m";
 

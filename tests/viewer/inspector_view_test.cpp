@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "tests/support/process.h"
-#include "tests/support/recorded_run.h"
+#include "tests/viewer/ball_run.h"
 #include "tests/viewer/inspector_driver.h"
 #include "viewer/commands.h"
 
@@ -18,20 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 using testing::InspectorDriver;
 
-/// Records a run once for all tests.
-class InspectorViewTest : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    unsetenv("DISPLAY");
-    folder_ = new test::TemporaryFolder;
-    testing::recordRun(testing::ballScene(), {"exploration.steps=2"}, run());
-  }
-  static void TearDownTestSuite() { delete folder_; }
-  static std::string run() { return *folder_ / "ball.vantage"; }
-
-  static test::TemporaryFolder* folder_;
-};
-test::TemporaryFolder* InspectorViewTest::folder_ = nullptr;
+class InspectorViewTest : public testing::WithBallRun<2> {};
 
 /// Colours in a widget's box.
 std::size_t coloursIn(InspectorDriver& driver, const std::string& name) {
