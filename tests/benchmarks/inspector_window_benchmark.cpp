@@ -144,7 +144,8 @@ BENCHMARK_CAPTURE(turnFrame, panels_alone, kTenSteps, {}, false)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
 
-/// From a movement of the mouse on the slider of B_th to the picture of the new ranking.
+/// From a movement of the mouse on the slider of B_th to the picture of the new ranking, and on to the one of
+/// the view whose path has been planned.
 void dragIsolationDistance(benchmark::State& state) {
   InspectorWindow window;
   window.open(benchmarks::tenSteps());
@@ -155,24 +156,30 @@ void dragIsolationDistance(benchmark::State& state) {
   const auto at = [&](double share) { return box.left + share * (box.right - box.left); };
   window.ui.moveMouse(at(0.5), box.y());
   window.ui.pressMouse();
-  double rerank_s = 0.0;
+  double rerank_s = 0.0, settled_s = 0.0;
   int turn = 0;
   Stopwatch watch(state);
   for (auto _ : state) {
     window.ui.settle(300.0);
     ++turn;
-    const std::uint64_t decision = window.model().whatIf().revision();
+    const WhatIf& what_if = window.model().whatIf();
+    const std::uint64_t decision = what_if.revision(), before = window.inspector.picturesRendered();
+    const auto start = Clock::now();
     watch.start();
     window.ui.moveMouse(at(0.3 + 0.02 * (turn % 20)), box.y());
-    const std::uint64_t before = window.inspector.picturesRendered();
-    while (window.model().whatIf().revision() == decision || window.inspector.picturesRendered() == before)
+    while (what_if.revision() == decision || window.inspector.picturesRendered() == before)
       window.ui.frame();
     watch.stop();
-    rerank_s += window.model().whatIf().rerankSeconds();
+    const bool ranked = what_if.state() == WhatIfState::Checking || what_if.state() == WhatIfState::Settled;
+    if (!ranked) state.SkipWithError("views had to be scored first");
+    window.until([&] { return what_if.state() == WhatIfState::Settled; });
+    settled_s += secondsSince(start);
+    rerank_s += what_if.rerankSeconds();
   }
   window.ui.releaseMouse();
   window.describe(state);
   state.counters["rerank_ms"] = 1e3 * rerank_s / static_cast<double>(state.iterations());
+  state.counters["settled_ms"] = 1e3 * settled_s / static_cast<double>(state.iterations());
   state.counters["groups"] = static_cast<double>(window.model().whatIf().groups());
 }
 BENCHMARK(dragIsolationDistance)->Unit(benchmark::kMillisecond)->UseManualTime()->Iterations(8);
