@@ -64,10 +64,12 @@ struct Window::State {
   /// Keys that were pressed and not shown to Dear ImGui yet: it looks at keys once a frame, and a press may
   /// be over by then.
   struct Press {
-    int key, mods;
+    int key;    ///< by its label
+    int place;  ///< as GLFW names it
+    int mods;
   };
   std::deque<Press> presses;
-  std::optional<int> held;           ///< the key that is held down for it in this frame
+  std::optional<Press> held;         ///< the key that is held down for it in this frame
   std::array<bool, 512> shown = {};  ///< keys that were down in the last frame
 
   /// The same for the mouse: a button counts where it was pressed or let go, however late the frame is.
@@ -92,15 +94,43 @@ struct Window::State {
 
 namespace {
 
-/// Every event asks for frames; Dear ImGui chains its own callbacks to these.
+/// GLFW names keys by their places on an American keyboard; shortcuts go by what is written on them. Letters
+/// of other alphabets stay where they are.
+int keyByLabel(int key, int scancode) {
+  if (key < 0 || key > GLFW_KEY_GRAVE_ACCENT) return key;  // it writes nothing, or is on the keypad
+  const char* label = glfwGetKeyName(key, scancode);
+  if (!label || label[0] == '\0' || label[1] != '\0') return key;
+  if (label[0] >= 'a' && label[0] <= 'z') return label[0] - 'a' + GLFW_KEY_A;
+  switch (label[0]) {
+    case ',':
+      return GLFW_KEY_COMMA;
+    case '.':
+      return GLFW_KEY_PERIOD;
+    case '-':
+      return GLFW_KEY_MINUS;
+    case '=':
+    case '+':
+      return GLFW_KEY_EQUAL;
+    default:
+      return key;
+  }
+}
+
+/// Every event asks for frames and goes on to Dear ImGui.
 void watchEvents(GLFWwindow* window) {
   static constexpr auto wanted = [](GLFWwindow* w) {
     static_cast<Window::State*>(glfwGetWindowUserPointer(w))->wantFrames();
   };
   glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { wanted(w); });
   glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int, int) { wanted(w); });
-  glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int) { wanted(w); });
-  glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int) { wanted(w); });
+  glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
+    ImGui_ImplGlfw_WindowFocusCallback(w, focused);
+    wanted(w);
+  });
+  glfwSetCursorEnterCallback(window, [](GLFWwindow* w, int entered) {
+    ImGui_ImplGlfw_CursorEnterCallback(w, entered);
+    wanted(w);
+  });
   glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
     auto* state = static_cast<Window::State*>(glfwGetWindowUserPointer(w));
     state->cursor_x = x;
@@ -113,13 +143,21 @@ void watchEvents(GLFWwindow* window) {
       state->clicks.push_back({button, action == GLFW_PRESS, state->cursor_x, state->cursor_y});
     wanted(w);
   });
-  glfwSetScrollCallback(window, [](GLFWwindow* w, double, double) { wanted(w); });
-  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
-    if (action == GLFW_PRESS && key >= 0)
-      static_cast<Window::State*>(glfwGetWindowUserPointer(w))->presses.push_back({key, mods});
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
+    ImGui_ImplGlfw_ScrollCallback(w, x, y);
     wanted(w);
   });
-  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned) { wanted(w); });
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int place, int scancode, int action, int mods) {
+    const int key = keyByLabel(place, scancode);
+    ImGui_ImplGlfw_KeyCallback(w, key, scancode, action, mods);
+    if (action == GLFW_PRESS && key >= 0)
+      static_cast<Window::State*>(glfwGetWindowUserPointer(w))->presses.push_back({key, place, mods});
+    wanted(w);
+  });
+  glfwSetCharCallback(window, [](GLFWwindow* w, unsigned letter) {
+    ImGui_ImplGlfw_CharCallback(w, letter);
+    wanted(w);
+  });
   glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
     auto* state = static_cast<Window::State*>(glfwGetWindowUserPointer(w));
     if (state->inspector) state->inspector->open({paths, paths + count});
@@ -156,8 +194,8 @@ Window::Window(const WindowOptions& options) : state_(std::make_unique<State>())
   state_->host = std::make_unique<UiHost>(*state_->context);
   state_->host->makeCurrent();
   glfwSetWindowUserPointer(state_->window, state_.get());
+  ImGui_ImplGlfw_InitForOpenGL(state_->window, false);
   watchEvents(state_->window);
-  ImGui_ImplGlfw_InitForOpenGL(state_->window, true);
 }
 
 Window::~Window() {
@@ -195,7 +233,7 @@ int Window::height() const {
 void Window::State::showPress() {
   ImGuiIO& io = ImGui::GetIO();
   const auto down = [this](int key) { return glfwGetKey(window, key) == GLFW_PRESS; };
-  if (held) io.KeysDown[*held] = down(*held);
+  if (held) io.KeysDown[held->key] = down(held->place);
   held.reset();
   io.KeyCtrl = down(GLFW_KEY_LEFT_CONTROL) || down(GLFW_KEY_RIGHT_CONTROL);
   io.KeyShift = down(GLFW_KEY_LEFT_SHIFT) || down(GLFW_KEY_RIGHT_SHIFT);
@@ -209,7 +247,7 @@ void Window::State::showPress() {
       io.KeyCtrl |= (press.mods & GLFW_MOD_CONTROL) != 0;
       io.KeyShift |= (press.mods & GLFW_MOD_SHIFT) != 0;
       io.KeysDown[press.key] = true;
-      held = press.key;
+      held = press;
     }
   }
   std::copy(std::begin(io.KeysDown), std::end(io.KeysDown), shown.begin());

@@ -194,5 +194,19 @@ wait $window)");
   EXPECT_THAT(remembered(folder), HasSubstr("width = 640"));
 }
 
+// Ctrl+Q quits: on a French keyboard Q is where an American one has A.
+TEST(View, KeysGoByWhatIsWrittenOnThem) {
+  const TemporaryFolder folder;
+  const ProcessResult result = underXvfb(folder, "setxkbmap fr", "--seconds 60", R"(
+for i in $(seq 100); do )" X_CLIENT R"( ctrl a 2>/dev/null && break; sleep 0.2; done
+sleep 1; kill -0 $window && echo "still open"
+)" X_CLIENT R"( ctrl q
+for i in $(seq 50); do kill -0 $window 2>/dev/null || break; sleep 0.2; done
+kill -0 $window 2>/dev/null && kill -KILL $window
+wait $window)");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("still open"));
+}
+
 }  // namespace
 }  // namespace vantage
