@@ -141,11 +141,11 @@ void InspectorCommands::addLayers() {
     Shortcut keys;
     for (const auto& [keyed, key] : kKeys)
       if (keyed == layer) keys.key = keyOf(key[0]);
-    Command& command =
-        add("layer." + std::string(name), "Layers", "Layer " + std::string(name), keys, [this, layer] {
-          LayerSet& layers = preferences_.view.layers;
-          layers.set(layer, !layers.has(layer));
-        });
+    Command& command = add("layer." + std::string(name), "Layers", "Show " + std::string(layerTitle(layer)),
+                           keys, [this, layer] {
+                             LayerSet& layers = preferences_.view.layers;
+                             layers.set(layer, !layers.has(layer));
+                           });
     command.checked = [this, layer] { return preferences_.view.layers.has(layer); };
   }
   add("layers.overview", "Layers", "A bit of every stage", {keyOf('0')},

@@ -8,12 +8,35 @@
 namespace vantage {
 namespace {
 
-constexpr std::array<std::string_view, kLayerCount> kNames = {
-    "workspace",     "object-box",     "axes",           "truth",        "occupied",       "unknown",
-    "free",          "slices",         "octree",         "surface",      "segment-labels", "segments",
-    "segment-ranks", "contour-voxels", "contour-points", "candidates",   "utility-sphere", "hit-voxels",
-    "occluders",     "coarse-rays",    "refined-rays",   "ranked-views", "chosen-view",    "path",
-    "sensor",        "depth-image"};
+struct LayerWords {
+  std::string_view name, title;
+};
+constexpr std::array<LayerWords, kLayerCount> kLayers = {{{"workspace", "workspace"},
+                                                          {"object-box", "object's box"},
+                                                          {"axes", "axes"},
+                                                          {"truth", "true scene"},
+                                                          {"occupied", "occupied voxels"},
+                                                          {"unknown", "frontier of unknown space"},
+                                                          {"free", "free space"},
+                                                          {"slices", "slices"},
+                                                          {"octree", "octree nodes"},
+                                                          {"surface", "fused surface"},
+                                                          {"segment-labels", "segments, each its colour"},
+                                                          {"segments", "segments by saliency"},
+                                                          {"segment-ranks", "order of the segments"},
+                                                          {"contour-voxels", "contour voxels"},
+                                                          {"contour-points", "contour points"},
+                                                          {"candidates", "candidate positions"},
+                                                          {"utility-sphere", "utility of candidates"},
+                                                          {"hit-voxels", "voxels that a view counts"},
+                                                          {"occluders", "occluders of a view"},
+                                                          {"coarse-rays", "coarse rays"},
+                                                          {"refined-rays", "refined rays"},
+                                                          {"ranked-views", "ranked views"},
+                                                          {"chosen-view", "chosen view"},
+                                                          {"path", "path"},
+                                                          {"sensor", "sensor"},
+                                                          {"depth-image", "depth image"}}};
 
 constexpr std::array<std::string_view, 4> kFactors = {"utility", "unknown", "occupied", "distance"};
 
@@ -35,18 +58,24 @@ std::vector<std::string_view> factorNames() {
 }
 
 std::string_view layerName(Layer layer) {
-  return kNames[static_cast<std::size_t>(layer)];
+  return kLayers[static_cast<std::size_t>(layer)].name;
+}
+
+std::string_view layerTitle(Layer layer) {
+  return kLayers[static_cast<std::size_t>(layer)].title;
 }
 
 std::optional<Layer> layerNamed(std::string_view name) {
   for (int i = 0; i < kLayerCount; ++i) {
-    if (kNames[i] == name) return static_cast<Layer>(i);
+    if (kLayers[i].name == name) return static_cast<Layer>(i);
   }
   return std::nullopt;
 }
 
 std::vector<std::string_view> layerNames() {
-  return {kNames.begin(), kNames.end()};
+  std::vector<std::string_view> names;
+  for (const LayerWords& layer : kLayers) names.push_back(layer.name);
+  return names;
 }
 
 void LayerStyle::validate() const {

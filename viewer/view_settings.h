@@ -46,6 +46,8 @@ inline constexpr int kLayerCount = 26;
 
 /// Name of a layer in files and on the command line, e.g. "contour-points".
 std::string_view layerName(Layer layer);
+/// What it is called where it is switched on and off, e.g. "frontier of unknown space".
+std::string_view layerTitle(Layer layer);
 std::optional<Layer> layerNamed(std::string_view name);
 std::vector<std::string_view> layerNames();
 

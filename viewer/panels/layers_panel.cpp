@@ -9,47 +9,26 @@
 namespace vantage {
 namespace {
 
-struct LayerEntry {
-  Layer layer;
-  const char* title;
-  bool scaled = false;  ///< it has a colour scale
-};
-
 struct LayerGroup {
   const char* title;
-  std::vector<LayerEntry> layers;
+  std::vector<Layer> layers;
 };
 
 const std::vector<LayerGroup>& layerGroups() {
+  using L = Layer;
   static const std::vector<LayerGroup> groups = {
-      {"Map",
-       {{Layer::Occupied, "occupied voxels"},
-        {Layer::Unknown, "frontier of unknown space"},
-        {Layer::Free, "free space"},
-        {Layer::Slices, "slices"},
-        {Layer::Octree, "octree nodes"},
-        {Layer::Truth, "true scene"}}},
-      {"Surface",
-       {{Layer::Surface, "fused surface"},
-        {Layer::SegmentLabels, "segments, each its colour"},
-        {Layer::Segments, "segments by saliency", true},
-        {Layer::SegmentRanks, "order of the segments"}}},
-      {"Contours", {{Layer::ContourVoxels, "contour voxels"}, {Layer::ContourPoints, "contour points"}}},
-      {"Views",
-       {{Layer::Candidates, "candidate positions"},
-        {Layer::UtilitySphere, "utility of candidates", true},
-        {Layer::RankedViews, "ranked views", true},
-        {Layer::ChosenView, "chosen view"},
-        {Layer::Path, "path"}}},
-      {"What a view sees",
-       {{Layer::HitVoxels, "voxels that it counts"},
-        {Layer::Occluders, "occluders"},
-        {Layer::CoarseRays, "coarse rays"},
-        {Layer::RefinedRays, "refined rays"}}},
-      {"Sensor", {{Layer::Sensor, "sensor"}, {Layer::DepthImage, "depth image"}}},
-      {"Frame",
-       {{Layer::Workspace, "workspace"}, {Layer::ObjectBox, "object's box"}, {Layer::Axes, "axes"}}}};
+      {"Map", {L::Occupied, L::Unknown, L::Free, L::Slices, L::Octree, L::Truth}},
+      {"Surface", {L::Surface, L::SegmentLabels, L::Segments, L::SegmentRanks}},
+      {"Contours", {L::ContourVoxels, L::ContourPoints}},
+      {"Views", {L::Candidates, L::UtilitySphere, L::RankedViews, L::ChosenView, L::Path}},
+      {"What a view sees", {L::HitVoxels, L::Occluders, L::CoarseRays, L::RefinedRays}},
+      {"Sensor", {L::Sensor, L::DepthImage}},
+      {"Frame", {L::Workspace, L::ObjectBox, L::Axes}}};
   return groups;
+}
+
+bool hasColorScale(Layer layer) {
+  return layer == Layer::Segments || layer == Layer::UtilitySphere || layer == Layer::RankedViews;
 }
 
 void colorMap(PanelContext& context, const std::string& name, LayerLook& look) {
@@ -61,13 +40,13 @@ void colorMap(PanelContext& context, const std::string& name, LayerLook& look) {
   if (chosen > 0) look.color_map = chosen == 1 ? ColorMap::Viridis : ColorMap::Cividis;
 }
 
-void layerDetails(PanelContext& context, const LayerEntry& entry, const std::string& name) {
-  LayerLook& look = context.preferences.view.look(entry.layer);
+void layerDetails(PanelContext& context, Layer layer, const std::string& name) {
+  LayerLook& look = context.preferences.view.look(layer);
   const double width = ImGui::GetFontSize() * 8.0;
   ImGui::Indent();
   context.widgets.slider(name + "/opacity", "opacity", look.opacity, 0.0, 1.0, "%.2f", false, width);
   context.widgets.slider(name + "/size", "size", look.size, 0.2, 5.0, "%.1f x", true, width);
-  if (entry.scaled) colorMap(context, name, look);
+  if (hasColorScale(layer)) colorMap(context, name, look);
   ImGui::Unindent();
 }
 
@@ -77,13 +56,13 @@ bool isEmpty(const PanelContext& context, Layer layer) {
          !context.scene.hasContent(layer);
 }
 
-void layerRow(PanelContext& context, const LayerEntry& entry) {
-  const std::string name = "layers/" + std::string(layerName(entry.layer));
+void layerRow(PanelContext& context, Layer layer) {
+  const std::string name = "layers/" + std::string(layerName(layer));
   ViewSettings& view = context.preferences.view;
-  bool on = view.layers.has(entry.layer);
+  bool on = view.layers.has(layer);
   const float more = ImGui::GetFrameHeight();
-  if (context.widgets.toggle(name, entry.title, on)) view.layers.set(entry.layer, on);
-  if (isEmpty(context, entry.layer)) {
+  if (context.widgets.toggle(name, std::string(layerTitle(layer)), on)) view.layers.set(layer, on);
+  if (isEmpty(context, layer)) {
     ImGui::SameLine();
     ImGui::TextDisabled("(none)");
     tip("this step has nothing of the kind");
@@ -92,14 +71,14 @@ void layerRow(PanelContext& context, const LayerEntry& entry) {
   ImGuiStorage& storage = *ImGui::GetStateStorage();
   const ImGuiID id = ImGui::GetID((name + "/open").c_str());
   const bool open = storage.GetBool(id);
-  const bool changed = view.look(entry.layer) != LayerLook{};
+  const bool changed = view.look(layer) != LayerLook{};
   if (context.widgets.button(name + "/more",
                              open      ? "▾"
                              : changed ? "●"
                                        : "▸",
                              true, "opacity, size, colours"))
     storage.SetBool(id, !open);
-  if (open) layerDetails(context, entry, name);
+  if (open) layerDetails(context, layer, name);
 }
 
 void styleRows(PanelContext& context) {
@@ -217,7 +196,7 @@ void layersPanel(PanelContext& context) {
     const bool open = ImGui::CollapsingHeader(group.title, ImGuiTreeNodeFlags_DefaultOpen);
     context.widgets.note("layers/group " + std::string(group.title));
     if (!open) continue;
-    for (const LayerEntry& entry : group.layers) layerRow(context, entry);
+    for (const Layer layer : group.layers) layerRow(context, layer);
   }
   if (ImGui::CollapsingHeader("Slices", ImGuiTreeNodeFlags_DefaultOpen)) sliceRows(context);
   if (ImGui::CollapsingHeader("Clipping box", ImGuiTreeNodeFlags_DefaultOpen)) clipRows(context);
