@@ -12,15 +12,9 @@
 namespace vantage {
 namespace {
 
-/// Place of a value on its slider, 0..1.
-double shareOf(const Parameter& p, double value) {
-  if (p.logarithmic) return std::log(value / p.low) / std::log(p.high / p.low);
-  return (value - p.low) / (p.high - p.low);
-}
-
 /// A mark on the slider that was drawn last.
-void tick(const PanelContext& context, const Parameter& p, double value, Rgb color, const std::string& text) {
-  const double share = shareOf(p, value);
+void tick(const Parameter& p, double value, Rgb color, const std::string& text) {
+  const double share = shareOnTrack(value, p.low, p.high, p.logarithmic);
   if (!(share >= 0.0 && share <= 1.0)) return;
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   const float grab = ImGui::GetStyle().GrabMinSize / 2 + 2.0f;
@@ -31,7 +25,6 @@ void tick(const PanelContext& context, const Parameter& p, double value, Rgb col
   const float mouse = ImGui::GetIO().MousePos.x;
   if (ImGui::IsItemHovered() && !ImGui::IsItemActive() && std::abs(mouse - x) < 8.0f)
     ImGui::SetTooltip("%s", text.c_str());
-  (void)context;
 }
 
 double numberOf(const config::Value& value) {
@@ -130,7 +123,7 @@ class Row {
         what_if_.set(p_.key, valueOf(field_, p_, value));
       if (ImGui::IsItemDeactivated()) what_if_.finishEdit();
       if (p_.paper)
-        tick(context_, p_, *p_.paper, context_.theme.chosen,
+        tick(p_, *p_.paper, context_.theme.chosen,
              "the paper: " + shownText(p_.key, *p_.paper) + " " + p_.unit);
       ImGui::SameLine();
     }

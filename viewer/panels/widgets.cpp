@@ -3,6 +3,9 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include <array>
+#include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "viewer/text_lines.h"
@@ -15,7 +18,22 @@ std::string idOf(const std::string& name, const std::string& label) {
   return label + "##" + name;
 }
 
+/// The number on the half of the track where the handle is not.
+void writeOnTrack(const WidgetBox& track, const char* format, double value, double share) {
+  std::array<char, 48> text;
+  std::snprintf(text.data(), text.size(), format, value);
+  const float pad = ImGui::GetStyle().FramePadding.x, width = ImGui::CalcTextSize(text.data()).x;
+  const auto left = static_cast<float>(track.left), right = static_cast<float>(track.right);
+  ImGui::GetWindowDrawList()->AddText({share < 0.5 ? right - pad - width : left + pad,
+                                       static_cast<float>(track.top) + ImGui::GetStyle().FramePadding.y},
+                                      ImGui::GetColorU32(ImGuiCol_Text), text.data());
+}
+
 }  // namespace
+
+double shareOnTrack(double value, double low, double high, bool logarithmic) {
+  return logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+}
 
 std::string inLines(const std::string& text, double width_px) {
   const auto width_of = [](std::string_view part) {
@@ -83,10 +101,15 @@ bool Widgets::slider(const std::string& name, const std::string& label, double& 
   const float width = ImGui::CalcItemWidth();
   const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput |
                                  (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
-  const bool moved = ImGui::SliderScalar(idOf(name, label).c_str(), ImGuiDataType_Double, &value, &low, &high,
-                                         format, flags);
+  const bool moved =
+      ImGui::SliderScalar(idOf(name, label).c_str(), ImGuiDataType_Double, &value, &low, &high, "", flags);
   note(name);
-  boxes_[name].right = boxes_[name].left + width;  // the track alone, without its label
+  WidgetBox& track = boxes_[name];
+  track.right = track.left + width;  // without its label
+  // What is almost nothing of the track's length is nothing: -0.000.
+  const bool nothing = std::abs(value) < 1e-9 * (high - low);
+  if (*format)
+    writeOnTrack(track, format, nothing ? 0.0 : value, shareOnTrack(value, low, high, logarithmic));
   return moved;
 }
 

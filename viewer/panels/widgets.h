@@ -59,6 +59,9 @@ class Widgets {
   Typed typed_;  ///< the field that is being typed into
 };
 
+/// Place of a value on a slider's track: 0 at `low`, 1 at `high`. \pre 0 < low if it is logarithmic
+double shareOnTrack(double value, double low, double high, bool logarithmic);
+
 /// The text with new lines where the room to the right ends, broken as brokenAtSpaces() does: Dear ImGui
 /// itself tears numbers at their decimal points. \param width_px 0: what is left of the line
 std::string inLines(const std::string& text, double width_px = 0.0);
