@@ -50,6 +50,13 @@ std::string lengthText(double metres) {
   return format(whole ? "%.0f %s" : value < 10.0 ? "%.1f %s" : "%.0f %s", value, unit);
 }
 
+std::string volumeText(double cubic_metres) {
+  const auto [value, unit] = cubic_metres < 1e-3 - 1e-12  ? std::pair{cubic_metres * 1e6, "cm³"}
+                             : cubic_metres < 1.0 - 1e-12 ? std::pair{cubic_metres * 1e3, "dm³"}
+                                                          : std::pair{cubic_metres, "m³"};
+  return format(value < 9.995 ? "%.2f %s" : value < 99.95 ? "%.1f %s" : "%.0f %s", value, unit);
+}
+
 std::string stepLine(const SceneFrame& frame) {
   const std::string input = std::filesystem::path(frame.header.input).stem().string();
   std::string text = input.empty() ? "run" : input;

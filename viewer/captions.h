@@ -16,6 +16,9 @@ std::string stepLine(const SceneFrame& frame);
 /// A length in the unit that suits it: "4 cm", "5.9 mm", "1.2 m".
 std::string lengthText(double metres);
 
+/// A volume in the unit that suits it: "8.64 dm³", "420 cm³", "1.25 m³".
+std::string volumeText(double cubic_metres);
+
 // The key figures of a step in one sentence or two, each about one product; never empty. A step whose planner
 // makes no such product is told so. The style says which depth or view a picture is about.
 using Figures = std::string(const SceneFrame& frame, const LayerStyle& style);

@@ -54,6 +54,8 @@ class InspectorModel {
 
   const std::filesystem::path& file() const { return file_; }
   bool isRun() const { return session_ != nullptr; }
+  /// Of the file; null if none is open.
+  std::shared_ptr<const RunHeader> header() const { return session_ ? session_->header() : recorded_.header; }
   bool loading() const;
   /// The run is still being written.
   bool growing() const { return session_ && !finished_ && !lost_; }

@@ -30,4 +30,8 @@ struct StepData {
 /// for a name that is not known.
 PlannerKind plannerKindOf(const RunHeader& header, const StepRecord& record);
 
+/// What the step did not know of the workspace, cubic metres: planners count it in voxels of their own map.
+/// Of a planner that is not known, as if in voxels of the volume.
+double unknownVolume_m3(const RunHeader& header, const StepSummary& step);
+
 }  // namespace vantage

@@ -5,6 +5,7 @@
 
 #include "tests/support/synthetic_record.h"
 #include "viewer/color.h"
+#include "viewer/step_data.h"
 
 namespace vantage {
 namespace {
@@ -163,6 +164,28 @@ TEST(Captions, LengthsHaveTheUnitThatSuitsThem) {
   EXPECT_EQ(lengthText(3.0 / 512.0), "5.9 mm");
   EXPECT_EQ(lengthText(0.025), "2.5 cm");
   EXPECT_EQ(lengthText(1.28), "1.3 m");
+}
+
+TEST(Captions, GiveVolumesInTheUnitThatSuitsThem) {
+  EXPECT_EQ(volumeText(0.0), "0.00 cm³");
+  EXPECT_EQ(volumeText(420e-6), "420 cm³");
+  EXPECT_EQ(volumeText(8.637e-3), "8.64 dm³");
+  EXPECT_EQ(volumeText(86.37e-3), "86.4 dm³");
+  EXPECT_EQ(volumeText(1.0), "1.00 m³");
+}
+
+TEST(StepData, UnknownSpaceOfTwoPlannersIsComparedInCubicMetres) {
+  RunHeader header;
+  header.planner = "contour,hierarchical";
+  header.volume.voxel_size_m = 0.01;
+  header.octree.emplace().map.voxel_size_m = 0.02;
+  StepSummary step;
+  step.unknown_voxels = 8000;
+  EXPECT_DOUBLE_EQ(unknownVolume_m3(header, step), 8e-3) << "the run's first planner";
+  step.planner = "hierarchical";
+  EXPECT_DOUBLE_EQ(unknownVolume_m3(header, step), 64e-3);
+  step.planner = "of next year";
+  EXPECT_DOUBLE_EQ(unknownVolume_m3(header, step), 8e-3);
 }
 
 TEST(Color, MapsRiseInLightnessFromEndToEnd) {

@@ -14,14 +14,16 @@ namespace {
 constexpr float kBetweenStages = 2.0f;
 
 struct Curves {
-  double most_unknown = 0.0, most_gain = 0.0;
+  std::vector<double> unknown_m3;  ///< of each step
+  double most_unknown_m3 = 0.0, most_gain = 0.0;
   bool has_coverage = false;
 };
 
-Curves measure(const std::vector<StepSummary>& steps) {
+Curves measure(const InspectorModel& model) {
   Curves curves;
-  for (const StepSummary& step : steps) {
-    curves.most_unknown = std::max(curves.most_unknown, static_cast<double>(step.unknown_voxels));
+  for (const StepSummary& step : model.steps()) {
+    curves.unknown_m3.push_back(unknownVolume_m3(*model.header(), step));
+    curves.most_unknown_m3 = std::max(curves.most_unknown_m3, curves.unknown_m3.back());
     curves.most_gain = std::max(curves.most_gain, step.gain.value_or(0.0));
     curves.has_coverage |= step.coverage.has_value();
   }
@@ -33,13 +35,15 @@ std::string nameOf(const StepSummary& step) {
 }
 
 /// Everything about a step that the strip shows, in words.
-void describe(const StepSummary& step) {
+void describe(const InspectorModel& model, int index) {
+  const StepSummary& step = model.steps()[index];
   ImGui::BeginTooltip();
   if (step.closing)
     ImGui::TextUnformatted("Map after the last scan");
   else
     ImGui::Text("Step %d, %s planner", step.step, step.planner.c_str());
-  ImGui::Text("unknown in the workspace: %s voxels of the planner's map",
+  ImGui::Text("unknown in the workspace: %s, %s voxels",
+              volumeText(unknownVolume_m3(*model.header(), step)).c_str(),
               grouped(step.unknown_voxels).c_str());
   if (step.coverage) ImGui::Text("coverage of the objects: %.1f %%", 100.0 * *step.coverage);
   if (step.gain) ImGui::Text("gain of the chosen view: %s rays", grouped(std::llround(*step.gain)).c_str());
@@ -54,7 +58,7 @@ class Strip {
   Strip(PanelContext& context, ImVec2 low, ImVec2 high)
       : context_(context),
         steps_(context.model.steps()),
-        curves_(measure(steps_)),
+        curves_(measure(context.model)),
         draw_(*ImGui::GetWindowDrawList()),
         low_(low),
         high_(high),
@@ -65,9 +69,10 @@ class Strip {
     draw_.AddRectFilled(low_, high_, packed(theme.paper));
     for (std::size_t i = 0; i < steps_.size(); ++i) drawGain(static_cast<int>(i));
     drawPlace();
-    curve(theme.curve, curves_.most_unknown,
-          [](const StepSummary& s) { return std::optional<double>(s.unknown_voxels); });
-    if (curves_.has_coverage) curve(theme.second_curve, 1.0, [](const StepSummary& s) { return s.coverage; });
+    curve(theme.curve, curves_.most_unknown_m3,
+          [this](std::size_t i) { return std::optional(curves_.unknown_m3[i]); });
+    if (curves_.has_coverage)
+      curve(theme.second_curve, 1.0, [this](std::size_t i) { return steps_[i].coverage; });
     for (std::size_t i = 0; i < steps_.size(); ++i) {
       const std::string text = nameOf(steps_[i]);
       const ImVec2 size = ImGui::CalcTextSize(text.c_str());
@@ -112,12 +117,13 @@ class Strip {
     draw_.AddRect(a, b, packed(context_.theme.accent), 0.0f, 0, 2.0f);
   }
 
+  /// \param value of the step with an index, if it has one
   template <class ValueOf>
   void curve(Rgb color, double largest, const ValueOf& value) {
     if (largest <= 0.0) return;
     std::optional<ImVec2> before;
     for (std::size_t i = 0; i < steps_.size(); ++i) {
-      const std::optional<double> v = value(steps_[i]);
+      const std::optional<double> v = value(i);
       if (!v) continue;
       const ImVec2 at{middle(static_cast<int>(i)), height(*v / largest)};
       if (before) draw_.AddLine(*before, at, packed(color), 2.0f);
@@ -144,7 +150,7 @@ void strip(PanelContext& context) {
   strip.draw();
   const int index = strip.indexAt(ImGui::GetIO().MousePos.x);
   if (ImGui::IsItemActive() && index != context.model.place().step) context.model.goToStep(index);
-  if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) describe(context.model.steps()[index]);
+  if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) describe(context.model, index);
 }
 
 void commandButton(PanelContext& context, const std::string& id, const std::string& label) {
@@ -175,7 +181,7 @@ void transport(PanelContext& context) {
   ImGui::SameLine();
   double speed = player.speed();
   if (context.widgets.slider("timeline/speed", "", speed, Player::kSlowest, Player::kFastest, "%.2g / s",
-                             true, ImGui::GetFontSize() * 6.0))
+                             true, ImGui::GetFontSize() * 7.0))
     player.setSpeed(speed);
   tip("steps (or stages) a second");
 }
@@ -233,7 +239,7 @@ void stages(PanelContext& context) {
 }
 
 void curveLegend(PanelContext& context) {
-  const Curves curves = measure(context.model.steps());
+  const Curves curves = measure(context.model);
   const auto entry = [&](Rgb color, const std::string& text) {
     const float size = ImGui::GetFontSize();
     ImGui::SameLine();
@@ -246,7 +252,7 @@ void curveLegend(PanelContext& context) {
     ImGui::SameLine(0.0f, 4.0f);
     ImGui::TextUnformatted(text.c_str());
   };
-  entry(context.theme.curve, "unknown, up to " + shortNumber(curves.most_unknown) + " voxels");
+  entry(context.theme.curve, "unknown, up to " + volumeText(curves.most_unknown_m3));
   if (curves.has_coverage) entry(context.theme.second_curve, "coverage, 0..100 %");
   if (curves.most_gain > 0.0)
     entry(context.theme.third_curve, "gain, up to " + shortNumber(curves.most_gain));
