@@ -200,7 +200,9 @@ InputError whyUnknown(const fs::path& path) {
   if (!fs::is_regular_file(status)) return {name, "is not a regular file"};
   if (!headOf(path)) return {name, "cannot be read; check its permissions"};
   if (endingOf(path) == ".toml") return whyUnknownToml(path);
-  const std::string near = nearest(endingOf(path), knownEndings());
+  const std::string ending = endingOf(path);
+  std::string near = nearest(ending, knownEndings());
+  if (near.size() > 1 && near[1] != ending[1]) near.clear();  // in three letters any two are near each other
   return {name, "not a kind of file that is known" + (near.empty() ? "" : "; did you mean " + near + "?") +
                     "; known: " + listOfKinds()};
 }

@@ -17,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr const char* kScene = "[[solid]]\nkind = \"box\"\nsize_m = [1.0, 1.0, 1.0]\n";
 
@@ -104,6 +105,7 @@ TEST_F(FileKindTest, SaysWhyAFileIsUnknown) {
   EXPECT_THAT(why(write("a.vantge", "x")),
               AllOf(HasSubstr("not a kind of file that is known"), HasSubstr("did you mean .vantage?"),
                     HasSubstr("known: .vantage, .vti")));
+  EXPECT_THAT(why(write("note.txt", "x")), Not(HasSubstr("did you mean"))) << "nor .bt";
   EXPECT_THAT(why(write("picture.jpeg", "x")), HasSubstr("known: "));
   EXPECT_THROW(requireKind(folder_ / "a.vantge"), InputError);
   EXPECT_THAT(why("/dev/null"), HasSubstr("not a regular file"));
