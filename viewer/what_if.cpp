@@ -304,6 +304,7 @@ std::string stateText(const WhatIf& what_if) {
 
 std::string scoredText(const WhatIf& what_if) {
   if (!what_if.ready()) return "";
+  if (what_if.state() == WhatIfState::Rerunning) return "views and map are those of earlier parameters";
   if (what_if.pendingGroups() == 0) return "all views are scored";
   return std::to_string(what_if.pendingGroups()) + " of " + std::to_string(what_if.groups()) +
          " groups of views not scored" +

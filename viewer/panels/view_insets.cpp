@@ -75,7 +75,10 @@ class Column {
     ImGui::SetCursorScreenPos({low.x + kPad, high.y + kPad});
     ImGui::BeginGroup();
     wrappedText(words.title, width_ - 2 * kPad);
-    if (words.scale) drawColorScale(*words.scale, width_ - 2 * kPad, context_.theme);
+    if (words.scale) {
+      wrappedText(words.scale->title, width_ - 2 * kPad);
+      drawColorScale(*words.scale, width_ - 2 * kPad, context_.theme);
+    }
     ImGui::EndGroup();
     const ImVec2 end{high.x, ImGui::GetItemRectMax().y + kPad};
     draw.ChannelsSetCurrent(0);

@@ -50,6 +50,7 @@ std::string workText(const InspectorModel& model) {
     text += (text.empty() ? "" : "   ·   ") + work.phase;
     if (work.total > 0) text += " " + std::to_string(100 * work.done / work.total) + " %";
   }
+  if (text.empty() && model.whatIf().busy()) text = stateText(model.whatIf());
   if (model.growing()) text += (text.empty() ? "" : "   ·   ") + std::string("the run is being written");
   return text.empty() ? "ready" : text;
 }
