@@ -40,7 +40,7 @@ struct Settings {
   std::string origin(std::string_view key) const;
 
   /// Checks every configuration struct and how they fit together. \throws InputError naming field, value and
-  /// range.
+  /// range, with the std::invalid_argument (an OutOfRange mostly) nested in it.
   void validate() const;
 };
 

@@ -1,3 +1,4 @@
+#include <exception>
 #include <sstream>
 #include <stdexcept>
 
@@ -49,7 +50,7 @@ void Settings::validate() const {
     validateTogether(*this);
     exploration.validate();
   } catch (const std::invalid_argument& error) {
-    throw InputError("configuration", error.what());
+    std::throw_with_nested(InputError("configuration", error.what()));
   }
 }
 

@@ -94,25 +94,6 @@ std::vector<double> typedNumbers(const config::Field& field, const std::string& 
   return numbers;
 }
 
-/// "KEY = VALUE is out of range; allowed: LOW .. HIGH" in its parts.
-struct RangeRefusal {
-  std::string key;
-  double value, low, high;
-};
-
-std::optional<RangeRefusal> rangeRefusal(const std::string& message) {
-  const std::string is = " = ", out = " is out of range; allowed: ", to = " .. ";
-  const std::size_t a = message.find(is), b = message.find(out), c = message.find(to, b);
-  if (a == std::string::npos || b == std::string::npos || c == std::string::npos || b < a) return {};
-  const std::size_t value = a + is.size(), low = b + out.size(), high = c + to.size();
-  const auto numbers = {parseNumber(message.substr(value, b - value)),
-                        parseNumber(message.substr(low, c - low)), parseNumber(message.substr(high))};
-  for (const auto& number : numbers)
-    if (!number) return {};
-  const auto* n = numbers.begin();
-  return RangeRefusal{message.substr(0, a), *n[0], *n[1], *n[2]};
-}
-
 }  // namespace
 
 std::string shownText(const std::string& key, const config::Value& value) {
@@ -140,17 +121,14 @@ config::Value typedValue(const config::Field& field, const std::string& typed) {
   return value;
 }
 
-std::string refusalText(const std::string& key, const std::string& message) {
-  const std::string all = "configuration: ";
-  const std::string text = message.starts_with(all) ? message.substr(all.size()) : message;
-  const auto range = rangeRefusal(text);
-  const Parameter* parameter = range ? parameterOf(range->key) : nullptr;
-  const config::Field* field = range ? config::find(range->key) : nullptr;
-  if (!parameter || !field) return text;
-  const std::string value = decimal(range->value / parameter->per_unit) + unitOf(range->key);
-  return (range->key == key ? value : "then '" + parameter->label + "', " + value + ",") +
+std::string refusalText(const std::string& key, const OutOfRange& refused) {
+  const Parameter* parameter = parameterOf(refused.field);
+  const config::Field* field = config::find(refused.field);
+  if (!parameter || !field) return refused.what();
+  const std::string value = decimal(refused.value / parameter->per_unit) + unitOf(refused.field);
+  return (refused.field == key ? value : "then '" + parameter->label + "', " + value + ",") +
          " is out of range; allowed: " +
-         rangeText(range->key, std::max(range->low, field->low), std::min(range->high, field->high));
+         rangeText(refused.field, std::max(refused.low, field->low), std::min(refused.high, field->high));
 }
 
 }  // namespace vantage

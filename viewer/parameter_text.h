@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "core/geometry/check.h"
 #include "io/config_fields.h"
 
 namespace vantage {
@@ -18,8 +19,8 @@ std::string allowedText(const config::Field& field);
 /// \throws std::invalid_argument with a line that says what is wrong and names range and unit
 config::Value typedValue(const config::Field& field, const std::string& typed);
 
-/// What refused a value, from Settings::validate() say, as a line at the field of `key`: in the units that
-/// are shown where it is about a range of a parameter, else as it is.
-std::string refusalText(const std::string& key, const std::string& message);
+/// That a value is out of range, as a line at the field of `key`: in the units that are shown. The range may
+/// be that of another parameter.
+std::string refusalText(const std::string& key, const OutOfRange& refused);
 
 }  // namespace vantage

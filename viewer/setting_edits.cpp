@@ -1,7 +1,10 @@
 #include "viewer/setting_edits.h"
 
+#include <exception>
+#include <optional>
 #include <stdexcept>
 
+#include "core/geometry/check.h"
 #include "viewer/parameter_text.h"
 #include "viewer/parameters.h"
 
@@ -19,6 +22,17 @@ bool holdsNumbers(const config::Field& field) {
   using config::Kind;
   return field.kind == Kind::Number || field.kind == Kind::Integer || field.kind == Kind::Numbers ||
          field.kind == Kind::Integers;
+}
+
+/// The range behind an error of Settings::validate(), if it is about one.
+std::optional<OutOfRange> rangeBehind(const std::exception& error) {
+  try {
+    std::rethrow_if_nested(error);
+  } catch (const OutOfRange& refused) {
+    return refused;
+  } catch (const std::exception&) {
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -56,7 +70,8 @@ bool SettingEdits::apply(const std::string& key, const config::Value& value) {
     field.set(tried, config::checked(field, value));
     tried.validate();
   } catch (const std::exception& e) {
-    errors_[key] = refusalText(key, e.what());
+    const auto range = rangeBehind(e);
+    errors_[key] = range ? refusalText(key, *range) : e.what();
     return false;
   }
   wanted_ = std::move(tried);
