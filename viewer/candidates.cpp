@@ -18,10 +18,10 @@ Eigen::Vector3d sensorPosition(const StepRecord& record) {
 class ContourRows {
  public:
   explicit ContourRows(const SceneFrame& frame)
-      : record_(frame.record),
+      : frame_(frame),
+        record_(frame.record),
         search_(*frame.record.search),
         threshold_(frame.header.contour_config.gain.gain_threshold),
-        rolls_(static_cast<std::uint32_t>(std::max(1, frame.header.contour_config.views.rolls))),
         sensor_(sensorPosition(frame.record)) {}
 
   std::vector<CandidateRow> make() {
@@ -72,15 +72,14 @@ class ContourRows {
   }
 
   double distance(std::uint32_t id) const {
-    const std::uint32_t position = id / rolls_;
-    if (!record_.positions || position >= record_.positions->size()) return 0.0;
-    return ((*record_.positions)[position].T_world_camera.translation() - sensor_).norm();
+    const ViewPosition* position = positionOf(frame_, id);
+    return position ? (position->T_world_camera.translation() - sensor_).norm() : 0.0;
   }
 
+  const SceneFrame& frame_;
   const StepRecord& record_;
   const ViewSearch& search_;
   double threshold_;
-  std::uint32_t rolls_;
   Eigen::Vector3d sensor_;
   std::vector<CandidateRow> rows_;
   std::uint32_t ranked_ = 0;

@@ -23,18 +23,6 @@ const CandidateRow* nextAfter(const std::vector<CandidateRow>& rows, const Candi
   return next;
 }
 
-/// The group of contour points that a pose belongs to.
-std::optional<std::uint32_t> groupOf(const SceneFrame& frame, std::uint32_t id) {
-  if (!frame.record.search || !frame.record.positions) return std::nullopt;
-  const std::size_t position = id / std::max(1, frame.header.contour_config.views.rolls);
-  if (position >= frame.record.positions->size()) return std::nullopt;
-  const std::uint32_t point = (*frame.record.positions)[position].group;
-  const auto& groups = frame.record.search->segments;
-  for (std::uint32_t g = 0; g < groups.size(); ++g)
-    if (std::ranges::find(groups[g].contour_points, point) != groups[g].contour_points.end()) return g;
-  return std::nullopt;
-}
-
 bool isScored(const ExplainedView& view) {
   return view.frame.record.search->segments[*view.group].scored;
 }
@@ -90,8 +78,9 @@ std::optional<CountedRegion> countedRegion(const SceneFrame& shown, const Candid
     return region;
   }
   const ViewSearch* search = shown.record.search.get();
-  if (!search || row.group >= search->segments.size() || !groupOf(shown, row.id)) return std::nullopt;
-  region.T_world_camera = candidatePose(shown, row.id);
+  const auto pose = poseOfCandidate(shown, row.id);
+  if (!search || row.group >= search->segments.size() || !pose) return std::nullopt;
+  region.T_world_camera = *pose;
   region.outside = shown.header.contour_config.gain.outside;
   if (const Sphere& sphere = search->segments[row.group].sphere; sphere.radius > 0.0)
     region.sphere = sphere;

@@ -183,7 +183,7 @@ StepData openAsStep(const fs::path& file, std::vector<std::string>* warnings) {
 
 StepData withViews(StepData step, const std::vector<ViewRow>& views) {
   StepRecord record = *step.record;
-  const auto rolls = static_cast<std::uint32_t>(std::max(1, step.header->contour_config.views.rolls));
+  const std::uint32_t rolls = rollsOf(*step.header);
   auto positions = std::make_shared<std::vector<ViewPosition>>();
   for (const ViewRow& view : views)
     positions->push_back({static_cast<std::uint32_t>(positions->size()) * rolls, 0, view.T_world_camera});

@@ -69,35 +69,44 @@ std::optional<Pose> poseOfCandidate(const SceneFrame& frame, std::uint32_t id) {
     const auto found = std::ranges::find(views, id, &ViewUtility::id);
     return found == views.end() ? std::nullopt : std::optional(found->T_world_camera);
   }
-  const auto rolls = static_cast<std::uint32_t>(std::max(1, frame.header.contour_config.views.rolls));
-  if (!frame.record.positions || id / rolls >= frame.record.positions->size()) return std::nullopt;
-  return candidatePose(frame, id);
+  const ViewPosition* position = positionOf(frame, id);
+  if (!position) return std::nullopt;
+  const std::uint32_t roll = id % rollsOf(frame.header);
+  if (roll == 0) return position->T_world_camera;
+  return rolledPose(*position, static_cast<int>(roll), frame.header.contour_config.views);
 }
 
-Pose candidatePose(const SceneFrame& frame, std::uint32_t id) {
-  const ContourViewConfig& config = frame.header.contour_config.views;
-  const std::uint32_t rolls = static_cast<std::uint32_t>(std::max(1, config.rolls));
-  const std::uint32_t position = id / rolls;
-  if (!frame.record.positions || position >= frame.record.positions->size()) return Pose::Identity();
-  // Turned about the optical axis from the pose of roll 0, as rolledPose() does.
-  const double roll_rad = 2.0 * 3.14159265358979323846 * (id % rolls) / rolls;
-  Pose pose = (*frame.record.positions)[position].T_world_camera;
-  pose.rotate(Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitZ()));
-  return pose;
+std::uint32_t rollsOf(const RunHeader& header) {
+  return static_cast<std::uint32_t>(std::max(1, header.contour_config.views.rolls));
+}
+
+const ViewPosition* positionOf(const SceneFrame& frame, std::uint32_t id) {
+  const std::size_t index = id / rollsOf(frame.header);
+  const auto& positions = frame.record.positions;
+  return positions && index < positions->size() ? &(*positions)[index] : nullptr;
+}
+
+std::optional<std::uint32_t> groupOf(const SceneFrame& frame, std::uint32_t id) {
+  const ViewPosition* position = positionOf(frame, id);
+  if (!position || !frame.record.search) return std::nullopt;
+  const auto& groups = frame.record.search->segments;
+  for (std::uint32_t g = 0; g < groups.size(); ++g)
+    if (std::ranges::find(groups[g].contour_points, position->group) != groups[g].contour_points.end())
+      return g;
+  return std::nullopt;
 }
 
 std::vector<RankedPosition> rankedPositions(const SceneFrame& frame, const SegmentSearch& search) {
   std::vector<RankedPosition> ranked;
   if (!frame.record.positions) return ranked;
-  const std::uint32_t rolls =
-      static_cast<std::uint32_t>(std::max(1, frame.header.contour_config.views.rolls));
+  const std::uint32_t rolls = rollsOf(frame.header);
   const double threshold = frame.header.contour_config.gain.gain_threshold;
   std::unordered_set<std::uint32_t> seen;
   for (const PoseScore& score : search.scores) {
     if (score.gain <= threshold) break;
-    if (score.id / rolls >= frame.record.positions->size() || !seen.insert(score.id / rolls).second) continue;
-    ranked.push_back(
-        {candidatePose(frame, score.id), score.gain, score.id, score.reachability, score.executed_before});
+    if (!seen.insert(score.id / rolls).second) continue;
+    if (const auto pose = poseOfCandidate(frame, score.id))
+      ranked.push_back({*pose, score.gain, score.id, score.reachability, score.executed_before});
   }
   return ranked;
 }

@@ -71,6 +71,13 @@ struct RankedPosition {
 /// Pose of any candidate of the step, of whichever planner; nothing if there is no such candidate.
 std::optional<Pose> poseOfCandidate(const SceneFrame& frame, std::uint32_t id);
 
+/// Candidates of the contour planners at one position: their ids are its index times this, and the roll.
+std::uint32_t rollsOf(const RunHeader& header);
+/// Position of a candidate of the contour planners; null if there is none.
+const ViewPosition* positionOf(const SceneFrame& frame, std::uint32_t id);
+/// The search that such a candidate belongs to, scored or not: an index into ViewSearch::segments (D-B33).
+std::optional<std::uint32_t> groupOf(const SceneFrame& frame, std::uint32_t id);
+
 /// Positions of a search by decreasing gain, each once with its best roll; those below the gain threshold are
 /// left out.
 std::vector<RankedPosition> rankedPositions(const SceneFrame& frame, const SegmentSearch& search);
@@ -88,8 +95,5 @@ double lookDistance(const SceneFrame& frame);
 
 /// How long the frustum of the chosen view is drawn, metres. \pre the record has a view
 double chosenFrustumLength(const SceneFrame& frame);
-
-/// Pose of a candidate view; identity if its position is not in the record.
-Pose candidatePose(const SceneFrame& frame, std::uint32_t id);
 
 }  // namespace vantage

@@ -11,13 +11,9 @@
 namespace vantage {
 namespace {
 
-std::uint32_t rollsOf(const SceneFrame& frame) {
-  return static_cast<std::uint32_t>(std::max(1, frame.header.contour_config.views.rolls));
-}
-
 /// Id of the view whose rays are shown.
 std::optional<std::uint32_t> shownView(const SceneFrame& frame, const LayerStyle& style) {
-  const std::size_t candidates = frame.record.positions->size() * rollsOf(frame);
+  const std::size_t candidates = frame.record.positions->size() * rollsOf(frame.header);
   if (style.view_id) {
     if (static_cast<std::size_t>(*style.view_id) >= candidates)
       throw InputError("view_id = " + std::to_string(*style.view_id),
@@ -73,36 +69,25 @@ double leavesAt(const Box& box, const Eigen::Vector3d& origin, const Eigen::Vect
   return leave < enter ? -1.0 : leave;
 }
 
-const SegmentSearch* searchOf(const SceneFrame& frame, std::uint32_t id) {
-  const StepRecord& record = frame.record;
-  if (!record.search || !record.positions) return nullptr;
-  const std::uint32_t position = id / rollsOf(frame);
-  if (position >= record.positions->size()) return nullptr;
-  const std::uint32_t point = (*record.positions)[position].group;
-  for (const SegmentSearch& search : record.search->segments)
-    if (std::ranges::find(search.contour_points, point) != search.contour_points.end()) return &search;
-  return nullptr;
-}
-
 std::optional<ViewHits> castView(const SceneFrame& frame, const LayerStyle& style) {
   const StepRecord& record = frame.record;
   if (!record.search || !record.positions || record.positions->empty()) return std::nullopt;
   const auto id = shownView(frame, style);
-  const SegmentSearch* search = id ? searchOf(frame, *id) : nullptr;
-  if (!search) return std::nullopt;
+  const auto group = id ? groupOf(frame, *id) : std::nullopt;
+  if (!group) return std::nullopt;
+  const SegmentSearch& search = record.search->segments[*group];
   const ContourPlannerConfig& config = frame.header.contour_config;
   const PinholeCamera camera = frame.header.camera.reduced(config.gain.reduction);
   ViewHits hits;
   hits.view = *id;
-  hits.region = search->sphere;
-  hits.T_world_camera = rolledPose((*record.positions)[*id / rollsOf(frame)],
-                                   static_cast<int>(*id % rollsOf(frame)), config.views);
+  hits.region = search.sphere;
+  hits.T_world_camera = *poseOfCandidate(frame, *id);
   hits.rays = static_cast<std::uint64_t>(camera.width) * camera.height;
   const Eigen::Vector3d origin = hits.T_world_camera.translation();
-  for (const FirstHit& hit : firstHits(frame.states, camera, hits.T_world_camera, queryOf(frame, *search))) {
+  for (const FirstHit& hit : firstHits(frame.states, camera, hits.T_world_camera, queryOf(frame, search))) {
     const Eigen::Vector3d along = (hits.T_world_camera.linear() * camera.ray(hit.u, hit.v)).normalized();
-    const double leaves_m = search->sphere.radius > 0.0 ? leavesAt(search->sphere, origin, along)
-                                                        : leavesAt(frame.header.workspace, origin, along);
+    const double leaves_m = search.sphere.radius > 0.0 ? leavesAt(search.sphere, origin, along)
+                                                       : leavesAt(frame.header.workspace, origin, along);
     if (!hit.counts && leaves_m <= hit.distance_m) continue;  // nothing of the region lies behind it
     const bool unknown = hit.state == VoxelState::Unknown;
     add(hit.too_near ? hits.too_near
@@ -111,8 +96,8 @@ std::optional<ViewHits> castView(const SceneFrame& frame, const LayerStyle& styl
                      : hits.occluded,
         hit.voxel);
   }
-  for (RayGroup* group : {&hits.counted, &hits.known, &hits.occluded, &hits.unknown_before, &hits.too_near})
-    finish(*group);
+  for (RayGroup* rays : {&hits.counted, &hits.known, &hits.occluded, &hits.unknown_before, &hits.too_near})
+    finish(*rays);
   return hits;
 }
 

@@ -39,7 +39,4 @@ std::optional<ViewHits> castView(const SceneFrame& frame, const LayerStyle& styl
 double leavesAt(const Sphere& ball, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction);
 double leavesAt(const Box& box, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction);
 
-/// The search that a candidate belongs to, scored or not; null if there is none (D-B33).
-const SegmentSearch* searchOf(const SceneFrame& frame, std::uint32_t id);
-
 }  // namespace vantage

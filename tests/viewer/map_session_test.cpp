@@ -111,7 +111,8 @@ TEST(MapSession, ShowsTablesOfViewsAloneAndOverAStep) {
   expectDrawable(over);
   for (std::size_t i = 0; i < views.size(); ++i) {
     const ViewPosition& position = (*over.record->positions)[i];
-    EXPECT_TRUE(candidatePose(over.frame(), position.first_id).isApprox(views[i].T_world_camera, 1e-9)) << i;
+    EXPECT_TRUE(poseOfCandidate(over.frame(), position.first_id)->isApprox(views[i].T_world_camera, 1e-9))
+        << i;
   }
   EXPECT_FALSE(over.record->hasView());
   EXPECT_TRUE(over.record->surface);
