@@ -14,8 +14,6 @@
 namespace vantage {
 namespace {
 
-constexpr double kBaseFont_px = 15.0;
-
 /// Dear ImGui's own keys by the numbers that we use.
 void mapKeys(ImGuiIO& io) {
   const std::pair<ImGuiKey, Key> keys[] = {
@@ -75,7 +73,7 @@ void OffscreenUi::frame(double elapsed_s) {
   Inspector& inspector = state_->inspector;
   inspector.update(elapsed_s);
   const Preferences& preferences = inspector.preferences();
-  state_->host.setLook(preferences.theme, kBaseFont_px * preferences.font_scale);
+  state_->host.setLook(preferences.theme, preferences.font_scale);
   ImGuiIO& io = state_->io();
   io.DisplaySize = {static_cast<float>(state_->width), static_cast<float>(state_->height)};
   io.DeltaTime = static_cast<float>(elapsed_s);

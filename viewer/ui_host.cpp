@@ -14,7 +14,7 @@
 namespace vantage {
 namespace {
 
-constexpr double kDefaultFont_px = 15.0;
+constexpr double kFont_px = 15.0;  ///< at scale 1
 
 /// Loads OpenGL's functions. Debian's GLEW reports a missing GLX display under EGL after it has loaded them.
 void loadFunctions() {
@@ -57,7 +57,7 @@ struct UiHost::State {
   GlContext& gl;
   ImGuiContext* ui = nullptr;
   ThemeName theme = ThemeName::Light;
-  double font_px = kDefaultFont_px;
+  double font_px = kFont_px;
   bool restyle = true;
 };
 
@@ -86,7 +86,8 @@ UiHost::~UiHost() {
   ImGui::DestroyContext(state_->ui);
 }
 
-void UiHost::setLook(ThemeName theme, double font_px) {
+void UiHost::setLook(ThemeName theme, double scale) {
+  const double font_px = kFont_px * scale;
   if (theme == state_->theme && font_px == state_->font_px) return;
   state_->theme = theme;
   state_->font_px = font_px;

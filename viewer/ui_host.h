@@ -19,8 +19,8 @@ class UiHost {
   ~UiHost();
   UiHost(const UiHost&) = delete;
 
-  /// Text height in pixels and theme from the next frame on.
-  void setLook(ThemeName theme, double font_px);
+  /// Theme and size of text from the next frame on. \param scale 1: 15 pixels
+  void setLook(ThemeName theme, double scale);
 
   /// Makes the context and ImGui's context current.
   void makeCurrent();

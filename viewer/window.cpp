@@ -18,7 +18,6 @@
 namespace vantage {
 namespace {
 
-constexpr double kBaseFont_px = 15.0;
 constexpr double kIdlePoll_s = 0.5;       ///< how often an idle window looks for new steps of its run
 constexpr double kBusyPoll_s = 1.0 / 30;  ///< how often one does that plays or waits for work
 constexpr double kLongestFrame_s = 0.25;  ///< a frame after a long sleep does not jump
@@ -299,7 +298,7 @@ void Window::State::drawFrame(double elapsed_s) {
   glfwGetFramebufferSize(window, &width, &height);
   if (width <= 0 || height <= 0) return;  // iconified
   const Preferences& preferences = inspector->preferences();
-  host->setLook(preferences.theme, kBaseFont_px * preferences.font_scale * unitScale());
+  host->setLook(preferences.theme, preferences.font_scale * unitScale());
   host->makeCurrent();
   ImGui_ImplGlfw_NewFrame();
   showPress();
