@@ -36,7 +36,17 @@ struct InspectorDriver {
     for (const Notice& notice : model().notices()) text += notice.text + "\n";
     return text;
   }
-  /// Pixels of the window that differ from another picture of it.
+  /// What a widget shows, without its neighbours.
+  RgbImage picture(const std::string& widget) {
+    const WidgetBox box = inspector.widgets().find(widget) ? *inspector.widgets().find(widget) : WidgetBox{};
+    const int left = static_cast<int>(box.left), top = static_cast<int>(box.top);
+    const RgbImage window = ui.image();
+    RgbImage part(static_cast<int>(box.right) - left, static_cast<int>(box.bottom) - top);
+    for (int y = 0; y < part.height; ++y)
+      for (int x = 0; x < part.width; ++x) part.set(x, y, window.at(left + x, top + y));
+    return part;
+  }
+  /// Pixels that differ between two pictures of one size.
   static int differing(const RgbImage& a, const RgbImage& b) {
     int count = 0;
     for (int y = 0; y < a.height; ++y)

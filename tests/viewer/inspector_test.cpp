@@ -3,9 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <fstream>
-
 #include "tests/support/process.h"
 #include "tests/viewer/ball_run.h"
 #include "tests/viewer/inspector_driver.h"
@@ -17,12 +14,6 @@ namespace {
 using testing::InspectorDriver;
 
 class InspectorTest : public testing::WithBallRun<3> {};
-
-const std::string kB = "saliency.isolation_distance_m";
-
-double wanted(InspectorDriver& driver, const std::string& key) {
-  return std::get<double>(driver.whatIf().edits().value(key));
-}
 
 TEST_F(InspectorTest, AnEmptyWindowSaysHowToBegin) {
   InspectorDriver driver;
@@ -126,14 +117,11 @@ TEST_F(InspectorTest, PlayingByStageShowsEveryStage) {
 TEST_F(InspectorTest, LayersAreSwitchedAndChangeThePicture) {
   InspectorDriver driver;
   driver.open(run());
-  driver.ui.moveMouse(5, 790);
-  driver.ui.settle();
-  const RgbImage before = driver.ui.image();
+  const RgbImage before = driver.picture("view");
   driver.ui.click("layers/occupied");
-  driver.ui.moveMouse(5, 790);
   driver.ui.settle();
   EXPECT_TRUE(driver.inspector.preferences().view.layers.has(Layer::Occupied));
-  EXPECT_GT(InspectorDriver::differing(before, driver.ui.image()), 500);
+  EXPECT_GT(InspectorDriver::differing(before, driver.picture("view")), 500);
   driver.ui.click("layers/occupied/more");
   driver.ui.drag("layers/occupied/opacity", 0.98, 0.5, 0.2, 0.5);
   driver.ui.settle();
@@ -245,202 +233,6 @@ TEST_F(InspectorTest, EveryCommandRunsWithoutFailing) {
   driver.model().player.pause();
   driver.ui.settle();
   EXPECT_FALSE(driver.inspector.wantsToClose());
-}
-
-TEST_F(InspectorTest, AThresholdReRanksAtOnceAndIsSettledByAPathCheck) {
-  InspectorDriver driver;
-  driver.open(run());
-  driver.ui.click("tab/What if");
-  const auto then = driver.model().recorded().record->chosen()->id;
-  ASSERT_EQ(driver.whatIf().state(), WhatIfState::Recorded);
-  driver.ui.enter("what-if/" + kB + "/text", "15");
-  driver.ui.settle();
-  EXPECT_DOUBLE_EQ(wanted(driver, kB), 0.015);
-  EXPECT_EQ(driver.whatIf().state(), WhatIfState::Settled);
-  const StepRecord& now = *driver.model().shown().record;
-  ASSERT_TRUE(now.hasView());
-  EXPECT_NE(now.chosen()->id, then);
-  EXPECT_EQ(now.search->chosen->search, 0u);
-  EXPECT_GT(now.chosen()->gain_voxels, 0u);
-  EXPECT_EQ(driver.model().recorded().record->chosen()->id, then) << "the record itself must not change";
-}
-
-TEST_F(InspectorTest, UndoRedoAndResetComeBack) {
-  InspectorDriver driver;
-  driver.open(run());
-  driver.ui.click("tab/What if");
-  driver.ui.drag("what-if/" + kB, 0.7, 0.5, 0.3, 0.5);
-  driver.ui.settle();
-  const double moved = wanted(driver, kB);
-  EXPECT_LT(moved, 0.03);
-  driver.ui.press({keyOf('Z'), true});
-  driver.ui.settle();
-  EXPECT_EQ(wanted(driver, kB), 0.05);
-  EXPECT_EQ(driver.whatIf().state(), WhatIfState::Recorded);
-  driver.ui.press({keyOf('Y'), true});
-  driver.ui.settle();
-  EXPECT_EQ(wanted(driver, kB), moved);
-  driver.ui.click("what-if/" + kB + "/reset");
-  driver.ui.settle();
-  EXPECT_EQ(wanted(driver, kB), 0.05);
-}
-
-TEST_F(InspectorTest, TextThatIsNoValueIsToldAndChangesNothing) {
-  InspectorDriver driver;
-  driver.open(run());
-  driver.ui.click("tab/What if");
-  driver.ui.enter("what-if/" + kB + "/text", "wide");
-  EXPECT_TRUE(driver.ui.has("what-if/" + kB + "/error"));
-  driver.ui.enter("what-if/" + kB + "/text", "-3");
-  EXPECT_TRUE(driver.ui.has("what-if/" + kB + "/error"));
-  EXPECT_EQ(wanted(driver, kB), 0.05);
-  driver.ui.enter("what-if/" + kB + "/text", "20");
-  EXPECT_FALSE(driver.ui.has("what-if/" + kB + "/error"));
-}
-
-TEST_F(InspectorTest, SegmentationRunsAgainInTheBackground) {
-  InspectorDriver driver;
-  driver.open(run());
-  driver.ui.click("tab/What if");
-  driver.ui.click("what-if/group Segmentation");
-  driver.ui.enter("what-if/segmentation.seed_m/text", "60");
-  EXPECT_NE(driver.whatIf().state(), WhatIfState::Recorded) << "it is at it, or done already";
-  driver.ui.settle();
-  EXPECT_EQ(driver.whatIf().state(), WhatIfState::Settled);
-  EXPECT_NE(driver.model().shown().record->labels->supervoxels,
-            driver.model().recorded().record->labels->supervoxels);
-  EXPECT_EQ(driver.model().shown().record->contours, driver.model().recorded().record->contours)
-      << "contours do not depend on segments and are kept";
-}
-
-TEST_F(InspectorTest, ARerunCanBeCancelled) {
-  InspectorDriver driver;
-  driver.open(run());
-  ASSERT_TRUE(driver.whatIf().setText("segmentation.seed_m", "60"));
-  EXPECT_EQ(driver.whatIf().state(), WhatIfState::Rerunning);
-  driver.inspector.commands().run("what-if.cancel");
-  EXPECT_EQ(driver.whatIf().state(), WhatIfState::Failed);
-  driver.ui.settle();
-  EXPECT_EQ(driver.model().shown().record->labels, driver.model().recorded().record->labels);
-  driver.ui.press({keyOf('R'), true});
-  driver.ui.settle();
-  EXPECT_EQ(driver.whatIf().state(), WhatIfState::Recorded);
-}
-
-TEST_F(InspectorTest, ParametersStayFromStepToStep) {
-  InspectorDriver driver;
-  driver.open(run());
-  driver.ui.click("tab/What if");
-  driver.ui.enter("what-if/gain.threshold/text", "100000");
-  driver.ui.settle();
-  EXPECT_FALSE(driver.model().shown().record->hasView());
-  driver.ui.press({Key::Right});
-  driver.ui.settle();
-  EXPECT_EQ(wanted(driver, "gain.threshold"), 100000.0);
-  EXPECT_FALSE(driver.model().shown().record->hasView());
-  EXPECT_TRUE(driver.model().recorded().record->hasView());
-}
-
-TEST_F(InspectorTest, HoverTellsWhatIsUnderTheMouse) {
-  InspectorDriver driver;
-  driver.open(run());
-  driver.ui.hover("view");
-  driver.ui.settle();
-  EXPECT_TRUE(driver.ui.has("view/hover"));
-}
-
-TEST_F(InspectorTest, TwoClicksMeasureADistance) {
-  InspectorDriver driver;
-  driver.open(run());
-  driver.ui.press({keyOf('M')});
-  driver.ui.settle();
-  const WidgetBox view = *driver.inspector.widgets().find("view");
-  const auto clickAt = [&](double share) {
-    driver.ui.moveMouse(view.left + share * (view.right - view.left), view.y());
-    driver.ui.pressMouse();
-    driver.ui.releaseMouse();
-    driver.ui.settle();
-    return view.left + share * (view.right - view.left);
-  };
-  const double from = clickAt(0.45);
-  EXPECT_FALSE(driver.ui.has("view/measured"));
-  const double to = clickAt(0.55);
-  ASSERT_TRUE(driver.ui.has("view/measured"));
-  const WidgetBox line = *driver.inspector.widgets().find("view/measured");
-  EXPECT_NEAR(line.left, from, 2.0) << "it ends where it was clicked";
-  EXPECT_NEAR(line.right, to, 2.0);
-  driver.ui.press({keyOf('M')});
-  driver.ui.settle();
-  EXPECT_FALSE(driver.ui.has("view/measured"));
-}
-
-TEST_F(InspectorTest, ADoubleClickLooksAtThePoint) {
-  InspectorDriver driver;
-  driver.open(run());
-  const Eye before = *driver.inspector.preferences().eye;
-  driver.ui.doubleClick("view");
-  driver.ui.settle();
-  const Eye after = *driver.inspector.preferences().eye;
-  EXPECT_GT((after.focus - before.focus).norm(), 1e-3);
-  EXPECT_NEAR(after.distance(), before.distance(), 1e-6);
-}
-
-TEST_F(InspectorTest, AFileThatIsNoRunIsToldInTheWindow) {
-  InspectorDriver driver;
-  driver.open(run());
-  const std::string broken = *folder_ / "broken.vantage";
-  test::writeFile(broken, std::string(20000, 'x'));
-  driver.open(broken);
-  EXPECT_NE(driver.notices().find("broken.vantage"), std::string::npos) << driver.notices();
-  EXPECT_EQ(driver.model().file().filename(), "ball.vantage") << "what was open stays";
-  driver.open(*folder_ / "missing.vantage");
-  EXPECT_NE(driver.notices().find("missing.vantage"), std::string::npos) << driver.notices();
-  driver.ui.click("notices/dismiss");
-  EXPECT_EQ(driver.notices(), "");
-}
-
-TEST_F(InspectorTest, ARunCutShortIsToldAndTheWindowLives) {
-  const std::string whole = test::readFile(run());
-  for (const double share : {0.1, 0.5, 0.9}) {
-    const std::string cut = *folder_ / "cut.vantage";
-    test::writeFile(cut, whole.substr(0, static_cast<std::size_t>(share * whole.size())));
-    InspectorDriver driver;
-    driver.open(cut);
-    for (const char* step : {"timeline/step 2", "timeline/step 3"}) {
-      if (!driver.ui.has(step)) continue;
-      driver.ui.click(step);
-      driver.ui.settle();
-    }
-    EXPECT_NE(driver.notices().find("cut.vantage"), std::string::npos) << share << driver.notices();
-    const auto& notices = driver.model().notices();
-    EXPECT_TRUE(std::ranges::any_of(notices, [](const Notice& n) { return n.level != Notice::Level::Info; }))
-        << driver.notices();
-  }
-}
-
-TEST_F(InspectorTest, AStepThatCannotBeReadIsToldAndWhatIsShownStays) {
-  const std::string copy = *folder_ / "copy.vantage";
-  std::filesystem::copy_file(run(), copy, std::filesystem::copy_options::overwrite_existing);
-  InspectorDriver driver;
-  driver.open(copy);
-  std::filesystem::resize_file(copy, std::filesystem::file_size(copy) / 2);
-  driver.ui.click("timeline/step 3");
-  driver.ui.settle();
-  EXPECT_NE(driver.notices().find("copy.vantage"), std::string::npos) << driver.notices();
-  ASSERT_FALSE(driver.model().shown().empty());
-  EXPECT_EQ(driver.model().shown().record->step, 1);
-  EXPECT_EQ(driver.model().place().step, 0) << "the timeline stands where the picture does";
-  EXPECT_FALSE(driver.model().loading());
-}
-
-TEST_F(InspectorTest, AConfigurationFileIsTriedOnTheStep) {
-  InspectorDriver driver;
-  driver.open(run());
-  const std::string config = *folder_ / "try.toml";
-  test::writeFile(config, "[saliency]\nisolation_distance_m = 0.01\n");
-  driver.open(config);
-  EXPECT_DOUBLE_EQ(wanted(driver, kB), 0.01);
-  EXPECT_EQ(driver.whatIf().state(), WhatIfState::Settled);
 }
 
 }  // namespace
