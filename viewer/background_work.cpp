@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -38,16 +39,20 @@ std::string failureOf(const Action& action) {
   try {
     action();
     return {};
-  } catch (const std::bad_alloc&) {
-    return "does not fit in memory; close other programs or use a larger machine";
   } catch (const std::exception& error) {
-    return *error.what() ? error.what() : "failed without a message";
+    return failureText(error);
   } catch (...) {
     return "failed without a message";
   }
 }
 
 }  // namespace
+
+std::string failureText(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error))
+    return "does not fit in memory; close other programs or use a larger machine";
+  return *error.what() ? error.what() : "failed without a message";
+}
 
 struct BackgroundWork::State {
   std::function<void()> wake;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <string>
@@ -18,6 +19,9 @@ struct BackgroundProgress {
   std::uint64_t total = 0;  ///< items; 0 = not known
   bool waiting = false;     ///< it has not begun
 };
+
+/// What went wrong, for people.
+std::string failureText(const std::exception& error);
 
 /// Long work beside the window: one worker thread does one job after the other, in the order in which they
 /// were started; what they give is handed over on the thread that calls poll(). All functions belong to one

@@ -1,7 +1,10 @@
 #include "viewer/what_if.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
+
+#include "viewer/candidates.h"
 
 namespace vantage {
 namespace {
@@ -44,7 +47,7 @@ void WhatIf::start(const std::string& name, Work work, Finish finish) {
     } catch (const Cancelled&) {
       throw;
     } catch (const std::exception& e) {
-      failure = e.what();
+      failure = failureText(e);
     }
     return BackgroundWork::Finish([this, step, result, failure, finish] {
       if (step != step_) return;
@@ -119,8 +122,7 @@ void WhatIf::show(StepData data) {
 void WhatIf::showRecorded() {
   work_.cancel(kRerun);
   work_.cancel(kCheck);
-  base_ = recorded_step_;
-  groups_ = recorded_groups_;
+  restOn(recorded_step_, recorded_groups_);
   state_ = WhatIfState::Recorded;
   failure_.clear();
   show(groups_ ? withAllScores(recorded_, *base_, *groups_, *context_, edits_.recorded()) : recorded_);
@@ -135,10 +137,8 @@ void WhatIf::update() {
     scorePending();
     return;
   }
-  if (stagesToRedo(*recorded_step_, edits_.wanted(), context_->planner).empty() && base_ != recorded_step_) {
-    base_ = recorded_step_;
-    groups_ = recorded_groups_;
-  }
+  if (stagesToRedo(*recorded_step_, edits_.wanted(), context_->planner).empty() && base_ != recorded_step_)
+    restOn(recorded_step_, recorded_groups_);
   if (stagesToRedo(*base_, edits_.wanted(), context_->planner).empty()) {
     work_.cancel(kRerun);
     rerank();
@@ -147,7 +147,15 @@ void WhatIf::update() {
   }
 }
 
+void WhatIf::restOn(std::shared_ptr<const PlannedStep> base, std::optional<ScoredGroups> groups) {
+  const std::shared_ptr<const PlannedStep> before = std::exchange(base_, std::move(base));
+  groups_ = std::move(groups);
+  const bool same = !before || before == base_ || sameCandidates(before->data.frame(), base_->data.frame());
+  if (!same && other_candidates_) other_candidates_();
+}
+
 void WhatIf::rerank() {
+  work_.cancel(kCheck);  // of other parameters
   const auto start = Clock::now();
   try {
     Reranked ranked =
@@ -187,15 +195,15 @@ void WhatIf::check() {
 void WhatIf::rerun() {
   state_ = WhatIfState::Rerunning;
   work_.cancel(kCheck);
-  work_.cancel(kScore);
+  cancelScoring();
   start(
       kRerun,
       [base = recorded_step_, context = context_, wanted = edits_.wanted()](const RunControl& control) {
         return std::make_shared<const PlannedStep>(replan(*base, *context, wanted, control));
       },
       [this](std::shared_ptr<const PlannedStep> planned) {
-        base_ = std::move(planned);
-        groups_ = groupsOf(*base_, context_->planner);
+        std::optional<ScoredGroups> groups = groupsOf(*planned, context_->planner);
+        restOn(std::move(planned), std::move(groups));
         update();
       });
 }
@@ -206,14 +214,20 @@ void WhatIf::scorePending() {
   const std::vector<std::uint32_t> pending = groups_->pendingIn(search);
   pending_groups_ = pending.size();
   if (pending.empty()) {
-    work_.cancel(kScore);
+    cancelScoring();
     return;
   }
+  if (isScoringOneOf(pending)) return;  // begun anew at every movement of a slider it would never end
+  scoring_ = ScoringJob{base_, search.segments[pending.front()].contour_points};
   start(
       kScore,
-      [base = base_, groups = *groups_, context = context_, group = search.segments[pending.front()]](
-          const RunControl& control) { return scoreGroupOf(*base, groups, *context, group, control); },
+      [base = base_, groups = *groups_, context = context_,
+       group = search.segments[pending.front()]](const RunControl& control) {
+        control.report("scoring views", 0, 0);
+        return scoreGroupOf(*base, groups, *context, group, control);
+      },
       [this, base = base_](std::shared_ptr<const ScoredGroup> group) {
+        scoring_.reset();
         if (base != base_) return;
         groups_->add(group);
         if (base_ == recorded_step_) recorded_groups_->add(std::move(group));
@@ -227,8 +241,21 @@ void WhatIf::scorePending() {
       });
 }
 
+void WhatIf::cancelScoring() {
+  work_.cancel(kScore);
+  scoring_.reset();
+}
+
+bool WhatIf::isScoringOneOf(const std::vector<std::uint32_t>& pending) const {
+  if (!scoring_ || scoring_->base != base_) return false;
+  const auto& segments = shown_.record->search->segments;
+  return std::ranges::any_of(
+      pending, [&](std::uint32_t g) { return segments[g].contour_points == scoring_->contour_points; });
+}
+
 void WhatIf::suspend() {
-  for (const std::string& name : {kScore, kRerun, kCheck}) work_.cancel(name);
+  for (const std::string& name : {kRerun, kCheck}) work_.cancel(name);
+  cancelScoring();
 }
 
 bool WhatIf::busy() const {

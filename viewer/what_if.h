@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -29,7 +30,9 @@ enum class WhatIfState {
 /// their stages again in the background. One thread, the one that polls the work.
 class WhatIf {
  public:
-  explicit WhatIf(BackgroundWork& work) : work_(work) {}
+  /// \param other_candidates called when the step that is shown numbers its candidates anew
+  explicit WhatIf(BackgroundWork& work, std::function<void()> other_candidates = {})
+      : work_(work), other_candidates_(std::move(other_candidates)) {}
 
   /// Another step; parameters that are tried stay. Without a context nothing can be tried: it is being
   /// prepared, or refuse() says why not.
@@ -84,9 +87,13 @@ class WhatIf {
   void leaveStep();
   void update();
   void showRecorded();
+  /// What the ranking rests on from now on.
+  void restOn(std::shared_ptr<const PlannedStep> base, std::optional<ScoredGroups> groups);
   void rerank();
   void rerun();
   void scorePending();
+  void cancelScoring();
+  bool isScoringOneOf(const std::vector<std::uint32_t>& pending) const;
   void check();
   void show(StepData data);
   /// Runs on the worker and hands its result to `finish` unless the step has changed meanwhile.
@@ -94,7 +101,14 @@ class WhatIf {
   void start(const std::string& name, Work work, Finish finish);
   void fail(const std::string& message);
 
+  /// Groups are known by their points: their place in the order changes with every threshold.
+  struct ScoringJob {
+    std::shared_ptr<const PlannedStep> base;
+    std::vector<std::uint32_t> contour_points;
+  };
+
   BackgroundWork& work_;
+  std::function<void()> other_candidates_;
   SettingEdits edits_;
   bool has_settings_ = false;  ///< of the run that is open
   bool stopped_ = false;       ///< by cancel()
@@ -107,6 +121,7 @@ class WhatIf {
   std::string failure_;
   std::uint64_t revision_ = 0, step_ = 0;
   std::size_t pending_groups_ = 0;
+  std::optional<ScoringJob> scoring_;
   double rerank_s_ = 0.0;
 };
 

@@ -3,6 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <future>
+#include <optional>
+#include <thread>
+
 #include "tests/support/synthetic_record.h"
 
 namespace vantage {
@@ -80,6 +85,58 @@ TEST_F(WhatIfTest, AFileOfParametersNamesWhatPlanningAgainDoesNotAskFor) {
   EXPECT_EQ(others, (std::vector<std::string>{"exploration.steps"}));
   EXPECT_TRUE(what_if_.edits().changed("gain.threshold"));
   EXPECT_FALSE(what_if_.edits().changed("exploration.steps"));
+}
+
+/// Keeps the worker from everything that comes after it until it is let go.
+class Hold {
+ public:
+  explicit Hold(BackgroundWork& work) {
+    work.start("hold", [free = free_.get_future().share()](const RunControl&) {
+      free.wait();
+      return BackgroundWork::Finish();
+    });
+  }
+  void letGo() { free_.set_value(); }
+
+ private:
+  std::promise<void> free_;
+};
+
+TEST_F(WhatIfTest, ACheckOfEarlierParametersNeverCountsForLaterOnes) {
+  const StepData data = stepData();
+  Hold hold(work_);
+  what_if_.setStep(data, makeWhatIfContext(data, {}));
+  // The first is decided by what is scored, so that its path is checked; the second needs a group more.
+  std::optional<double> ranked, unscored;
+  for (double threshold = 100.0; threshold < 1e6; threshold *= 1.3) {
+    ASSERT_TRUE(what_if_.set("gain.threshold", threshold));
+    if (what_if_.state() == WhatIfState::Checking) ranked = threshold;
+    if (what_if_.state() == WhatIfState::Scoring) unscored = threshold;
+  }
+  ASSERT_TRUE(ranked && unscored);
+  ASSERT_TRUE(what_if_.set("gain.threshold", *ranked));
+  ASSERT_EQ(what_if_.state(), WhatIfState::Checking);
+  ASSERT_TRUE(what_if_.set("gain.threshold", *unscored));
+  ASSERT_EQ(what_if_.state(), WhatIfState::Scoring);
+  hold.letGo();
+  while (work_.busy()) {
+    work_.poll();
+    ASSERT_EQ(what_if_.shown().header->contour_config.gain.gain_threshold, *unscored);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(what_if_.state(), WhatIfState::Settled);
+}
+
+TEST_F(WhatIfTest, ViewsAreScoredWhileASliderMoves) {
+  const StepData data = stepData();
+  what_if_.setStep(data, makeWhatIfContext(data, {}));
+  ASSERT_GT(what_if_.pendingGroups(), 0u);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  for (int i = 0; what_if_.pendingGroups() > 0 && std::chrono::steady_clock::now() < end; ++i) {
+    ASSERT_TRUE(what_if_.set("gain.threshold", 1e5 + i));  // no view is that good: all groups are wanted
+    work_.poll();
+  }
+  EXPECT_EQ(what_if_.pendingGroups(), 0u);
 }
 
 }  // namespace
