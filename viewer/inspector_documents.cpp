@@ -89,6 +89,7 @@ void Documents::linkSteps() {
   InspectorModel& follower = other()->model;
   const TimelinePlace wanted{std::min(model.place().step, static_cast<int>(follower.steps().size()) - 1),
                              stageNamed(follower.stages(), model.stages()[model.place().stage].name)};
+  if (follower.unreadable() == wanted.step) return;  // it was told; asked again it would be told for ever
   if (wanted != follower.place()) follower.goTo(wanted);
 }
 

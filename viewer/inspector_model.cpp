@@ -29,10 +29,11 @@ std::string leftOut(const std::vector<std::string>& keys) {
 
 }  // namespace
 
-InspectorModel::InspectorModel(std::function<void()> wake) : work_(std::move(wake)), what_if_(work_) {
+InspectorModel::InspectorModel(std::function<void()> wake)
+    : work_(std::move(wake)), what_if_(work_, [this] { selected_view.reset(); }) {
   work_.onFailure([this](const std::string& name, const std::string& message) {
     if (name == kOpen) opening_ = false;
-    if (name == kLoad) loadFailed();
+    if (name == kLoad) loadFailed(place_.step);
     if (name == kPrepare) what_if_.refuse(message);
     say(Notice::Level::Error, message);
   });
@@ -48,7 +49,7 @@ void InspectorModel::say(Notice::Level level, std::string text) {
 }
 
 bool InspectorModel::loading() const {
-  return opening_ || (isRun() && !steps_.empty() && loaded_ != place_.step && !load_failed_);
+  return opening_ || (isRun() && !steps_.empty() && loaded_ != place_.step && !unreadable_);
 }
 
 bool InspectorModel::idle() const {
@@ -75,7 +76,13 @@ BackgroundWork::Finish InspectorModel::opened(const std::filesystem::path& file,
     case FileKind::Config:
       return [this, text = readTextFile(file), file, name] {
         opening_ = false;
-        if (!what_if_.ready()) throw InputError(name, "holds parameters; open a run to try them on first");
+        if (!what_if_.ready()) {
+          if (!isRun()) throw InputError(name, "holds parameters; open a run to try them on first");
+          if (!what_if_.failure().empty())
+            throw InputError(name, "cannot be tried here: " + what_if_.failure());
+          openNext(file);  // the step is being prepared
+          return;
+        }
         const std::vector<std::string> others = what_if_.load(text, file.string());
         say(others.empty() ? Notice::Level::Info : Notice::Level::Warning,
             "the parameters of " + name + " are tried" + leftOut(others));
@@ -91,6 +98,8 @@ BackgroundWork::Finish InspectorModel::opened(const std::filesystem::path& file,
       if (over_step)
         return [this, views = readViews(file), name] {
           opening_ = false;
+          work_.cancel(kPrepare);
+          selected_view.reset();
           recorded_ = withViews(recorded_, views);
           what_if_.setStep(recorded_, nullptr);
           what_if_.refuse("other views are shown over the step");
@@ -125,6 +134,7 @@ void InspectorModel::takeOver(std::shared_ptr<RunSession> session, std::filesyst
   what_if_.clear();
   recorded_ = {};
   loaded_ = -1;
+  unreadable_.reset();
   place_ = {};
   ++revision_;
   steps_.clear();
@@ -169,7 +179,7 @@ void InspectorModel::previous() {
 
 void InspectorModel::load(int index) {
   const int step = steps_[index].step;
-  load_failed_ = false;
+  unreadable_.reset();
   work_.cancel(kPrepare);
   work_.cancel(kAhead);
   what_if_.suspend();  // the worker is wanted for the step
@@ -181,11 +191,14 @@ void InspectorModel::load(int index) {
 }
 
 /// What was shown stays, and so does its place.
-void InspectorModel::loadFailed() {
-  load_failed_ = true;
+void InspectorModel::loadFailed(int index) {
+  unreadable_ = index;
   player.pause();
   if (loaded_ >= 0) place_.step = loaded_;
-  what_if_.resume();
+  if (what_if_.ready())
+    what_if_.resume();
+  else if (loaded_ >= 0 && what_if_.failure().empty())
+    prepare();
 }
 
 void InspectorModel::show(StepData data, int index) {
@@ -196,20 +209,29 @@ void InspectorModel::show(StepData data, int index) {
   ++revision_;
   selected_view.reset();
   what_if_.setStep(recorded_, nullptr);
-  if (!session_ || recorded_.record->closing || index != place_.step) return;
-  work_.start(kPrepare, [this, session = session_, data = recorded_, index](const RunControl& control) {
-    control.report("preparing what-if", 0, 0);
-    auto context = makeWhatIfContext(data, session->exclusionsBefore(data.record->step));
-    return BackgroundWork::Finish([this, context = std::move(context), index] {
-      if (loaded_ == index) what_if_.setStep(recorded_, context);
-    });
-  });
+  if (!session_ || index != place_.step) return;
+  prepare();
   if (index + 1 < static_cast<int>(steps_.size()))
     work_.start(kAhead, [session = session_, next = steps_[index + 1].step](const RunControl& control) {
       control.report("reading ahead", 0, 0);
       session->prepare(next);
       return BackgroundWork::Finish();
     });
+}
+
+void InspectorModel::prepare() {
+  if (recorded_.record->closing) {
+    what_if_.refuse("nothing was planned on the map after the last scan");
+    return;
+  }
+  work_.start(kPrepare,
+              [this, session = session_, data = recorded_, index = loaded_](const RunControl& control) {
+                control.report("preparing what-if", 0, 0);
+                auto context = makeWhatIfContext(data, session->exclusionsBefore(data.record->step));
+                return BackgroundWork::Finish([this, context = std::move(context), index] {
+                  if (loaded_ == index) what_if_.setStep(recorded_, context);
+                });
+              });
 }
 
 void InspectorModel::follow() {
@@ -220,8 +242,8 @@ void InspectorModel::follow() {
     const Followed news = session->refresh();
     Followed nothing;
     nothing.finished = finished;
-    if (news == nothing || (lost && !news.replaced))
-      return BackgroundWork::Finish();  // nor is anything drawn
+    const bool well = !news.gone && news.problem.empty();
+    if (lost ? !well : news == nothing) return BackgroundWork::Finish();  // nor is anything drawn
     std::vector<StepSummary> steps;
     if (news.grown || news.replaced || news.finished) steps = session->summaries();
     return BackgroundWork::Finish([this, news, steps = std::move(steps)]() mutable {
@@ -237,6 +259,7 @@ void InspectorModel::follow() {
         open(file_);
         return;
       }
+      if (std::exchange(lost_, false)) say(Notice::Level::Info, name + " can be read again");
       if (news.grown) {
         const bool at_end = place_.step + 1 >= static_cast<int>(steps_.size());
         const bool first = steps_.empty();

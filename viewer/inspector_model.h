@@ -57,6 +57,8 @@ class InspectorModel {
   /// Of the file; null if none is open.
   std::shared_ptr<const RunHeader> header() const { return session_ ? session_->header() : recorded_.header; }
   bool loading() const;
+  /// Index of the step that was asked for last, if it could not be read.
+  std::optional<int> unreadable() const { return unreadable_; }
   /// The run is still being written.
   bool growing() const { return session_ && !finished_ && !lost_; }
 
@@ -102,7 +104,9 @@ class InspectorModel {
   void takeOver(std::shared_ptr<RunSession> session, std::filesystem::path file);
   void show(StepData data, int index);
   void load(int index);
-  void loadFailed();
+  void loadFailed(int index);
+  /// Makes ready what parameters are tried with.
+  void prepare();
   void follow();
   void setSteps(std::vector<StepSummary> steps);
 
@@ -111,7 +115,7 @@ class InspectorModel {
   bool finished_ = true;
   bool lost_ = false;  ///< the file is gone or cannot be read any more; another one may come
   bool opening_ = false;
-  bool load_failed_ = false;  ///< of the step that was asked for last
+  std::optional<int> unreadable_;
   std::deque<std::filesystem::path> next_files_;
   std::vector<StepSummary> steps_;
   TimelinePlace place_;

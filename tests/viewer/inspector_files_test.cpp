@@ -17,7 +17,17 @@ namespace {
 using ::testing::HasSubstr;
 using testing::InspectorDriver;
 
-class InspectorFilesTest : public testing::WithBallRun<3> {};
+class InspectorFilesTest : public testing::WithBallRun<3> {
+ protected:
+  /// Lets time pass until the window says that.
+  static void waitFor(InspectorDriver& driver, const std::string& words) {
+    for (int i = 0; i < 60 && driver.notices().find(words) == std::string::npos; ++i) {
+      driver.ui.frame(0.25);
+      driver.ui.settle();
+    }
+    EXPECT_THAT(driver.notices(), HasSubstr(words));
+  }
+};
 
 TEST_F(InspectorFilesTest, AFileThatIsNoRunIsToldInTheWindow) {
   InspectorDriver driver;
@@ -67,6 +77,51 @@ TEST_F(InspectorFilesTest, AStepThatCannotBeReadIsToldAndWhatIsShownStays) {
   EXPECT_FALSE(driver.model().loading());
 }
 
+TEST_F(InspectorFilesTest, ParametersCanBeTriedOnAStepThatWasLeftForAnUnreadableOne) {
+  const std::string copy = *folder_ / "copy.vantage";
+  std::filesystem::copy_file(run(), copy, std::filesystem::copy_options::overwrite_existing);
+  InspectorDriver driver;
+  driver.inspector.open({copy});
+  while (driver.model().recorded().empty()) driver.ui.frame();
+  EXPECT_FALSE(driver.whatIf().ready()) << "it is being prepared";
+  std::filesystem::resize_file(copy, std::filesystem::file_size(copy) / 2);
+  driver.model().goToStep(2);
+  driver.ui.settle();
+  EXPECT_EQ(driver.model().place().step, 0);
+  EXPECT_TRUE(driver.whatIf().ready()) << stateText(driver.whatIf());
+}
+
+TEST_F(InspectorFilesTest, APictureThatCannotBeNamedIsToldInTheWindow) {
+  const std::string run_with_long_name = *folder_ / (std::string(245, 'r') + ".vantage");
+  std::filesystem::copy_file(run(), run_with_long_name);
+  InspectorDriver driver;
+  driver.open(run_with_long_name);
+  driver.ui.press({keyOf('S'), true});
+  EXPECT_THAT(driver.notices(), HasSubstr("File name too long"));
+}
+
+TEST_F(InspectorFilesTest, ParametersThatAreDroppedWhereNothingWasPlannedAreToldSo) {
+  const std::string config = *folder_ / "late.toml";
+  test::writeFile(config, "[saliency]\nisolation_distance_m = 0.01\n");
+  InspectorDriver driver;
+  driver.open(run());
+  driver.ui.press({Key::End});
+  driver.ui.settle();
+  driver.open(config);
+  EXPECT_THAT(driver.notices(), HasSubstr("nothing was planned"));
+}
+
+TEST_F(InspectorFilesTest, ARunThatComesBackIsFollowedAgain) {
+  const std::string copy = *folder_ / "moved.vantage", away = *folder_ / "away.vantage";
+  std::filesystem::copy_file(run(), copy);
+  InspectorDriver driver;
+  driver.open(copy);
+  std::filesystem::rename(copy, away);
+  waitFor(driver, "moved.vantage is gone");
+  std::filesystem::rename(away, copy);
+  waitFor(driver, "moved.vantage can be read again");
+}
+
 TEST_F(InspectorFilesTest, ARunFromANewerVersionIsToldAndWhatIsOpenStays) {
   const std::string newer = *folder_ / "newer.vantage";
   std::string bytes = test::readFile(run());
@@ -86,17 +141,10 @@ TEST_F(InspectorFilesTest, ARunThatIsDeletedAndWrittenAgainIsOpenedAgain) {
   std::filesystem::copy_file(run(), copy, std::filesystem::copy_options::overwrite_existing);
   InspectorDriver driver;
   driver.open(copy);
-  const auto waitFor = [&](const std::string& words) {
-    for (int i = 0; i < 60 && driver.notices().find(words) == std::string::npos; ++i) {
-      driver.ui.frame(0.25);
-      driver.ui.settle();
-    }
-    EXPECT_THAT(driver.notices(), HasSubstr(words));
-  };
   std::filesystem::remove(copy);
-  waitFor("again.vantage is gone");
+  waitFor(driver, "again.vantage is gone");
   std::filesystem::copy_file(run(), copy);
-  waitFor("written anew");
+  waitFor(driver, "written anew");
   driver.ui.settle();
   EXPECT_EQ(driver.model().place().step, 0);
   EXPECT_FALSE(driver.model().shown().empty());
@@ -108,11 +156,7 @@ TEST_F(InspectorFilesTest, ARunThatIsWholeAndThenDeletedIsTold) {
   InspectorDriver driver;
   driver.open(copy);
   std::filesystem::remove(copy);
-  for (int i = 0; i < 60 && driver.notices().empty(); ++i) {
-    driver.ui.frame(0.25);
-    driver.ui.settle();
-  }
-  EXPECT_THAT(driver.notices(), HasSubstr("copy.vantage is gone"));
+  waitFor(driver, "copy.vantage is gone");
   EXPECT_FALSE(driver.model().shown().empty());
 }
 

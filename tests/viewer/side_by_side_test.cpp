@@ -172,5 +172,21 @@ TEST_F(SideBySide, AThirdFileIsLeftOutAndParametersAreTriedOnTheActiveOne) {
   EXPECT_DOUBLE_EQ(std::get<double>(driver.whatIf().edits().value("saliency.isolation_distance_m")), 0.01);
 }
 
+TEST_F(SideBySide, AStepThatTheOtherFileCannotGiveIsToldOnce) {
+  const std::string cut = *folder_ / "cut.vantage";
+  std::filesystem::copy_file(left(), cut, std::filesystem::copy_options::overwrite_existing);
+  InspectorDriver driver;
+  driver.inspector.open({left(), cut});
+  driver.ui.settle();
+  std::filesystem::resize_file(cut, std::filesystem::file_size(cut) / 2);
+  driver.ui.press({Key::End});
+  driver.ui.settle();  // it comes to rest
+  EXPECT_TRUE(driver.model().shown().record->closing);
+  EXPECT_THAT(driver.notices(), HasSubstr("cut.vantage"));
+  driver.ui.click("notices/dismiss");
+  driver.ui.settle();
+  EXPECT_EQ(driver.notices(), "");
+}
+
 }  // namespace
 }  // namespace vantage
