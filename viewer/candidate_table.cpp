@@ -75,7 +75,7 @@ double valueIn(const CandidateRow& row, CandidateColumn column) {
 }
 
 bool passes(const CandidateRow& row, const CandidateFilter& filter) {
-  if (filter.group && row.group != *filter.group) return false;
+  if (filter.segment && row.segment != *filter.segment) return false;
   if (filter.ranked_only && !row.rank && !row.pending()) return false;
   if (filter.reachable_only && (isUnreachable(row.reachability) || row.verdict == ViewVerdict::NotFree))
     return false;
@@ -155,10 +155,11 @@ std::vector<std::uint32_t> listedRows(const std::vector<CandidateRow>& rows, con
 void CandidateTable::show(const StepData& recorded, const StepData& shown) {
   const bool same_recorded = isSame(recorded_, recorded.record) && isSame(recorded_header_, recorded.header);
   if (same_recorded && isSame(shown_, shown.record) && isSame(shown_header_, shown.header)) return;
-  if (!same_recorded) {
+  if (!same_recorded)
     recorded_rows_ = recorded.empty() ? std::vector<CandidateRow>() : candidateRows(recorded.frame());
-    filter_.group.reset();
-  }
+  const std::shared_ptr<const Labels> labels = shown.empty() ? nullptr : shown.record->labels;
+  if (!same_recorded || !isSame(shown_labels_, labels)) filter_.segment.reset();
+  shown_labels_ = labels;
   recorded_ = recorded.record;
   recorded_header_ = recorded.header;
   shown_ = shown.record;

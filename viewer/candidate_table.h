@@ -42,10 +42,10 @@ const std::vector<CandidateColumnText>& candidateColumns(bool hierarchical);
 
 /// Which rows are listed.
 struct CandidateFilter {
-  std::string text = {};        ///< part of the id; empty = any
-  bool ranked_only = false;     ///< only views with a place, and what is pending
-  bool reachable_only = false;  ///< none that the robot is known not to be able to take
-  std::optional<std::uint32_t> group = {};
+  std::string text = {};                      ///< part of the id; empty = any
+  bool ranked_only = false;                   ///< only views with a place, and what is pending
+  bool reachable_only = false;                ///< none that the robot is known not to be able to take
+  std::optional<std::uint32_t> segment = {};  ///< label; places in the order change with every threshold
   bool operator==(const CandidateFilter&) const = default;
 };
 
@@ -59,8 +59,8 @@ std::vector<std::uint32_t> listedRows(const std::vector<CandidateRow>& rows, con
 /// something changed.
 class CandidateTable {
  public:
-  /// Takes over another step or decision; keeps order and filter, but for that by segment if it is another
-  /// step. As long as both have the same header, nothing is tried out: what is shown is then what later
+  /// Takes over another step or decision; keeps order and filter, but for that by segment if segments are
+  /// others. As long as both have the same header, nothing is tried out: what is shown is then what later
   /// decisions are compared with, with more segments scored than recorded maybe.
   void show(const StepData& recorded, const StepData& shown);
   /// True if that is another order than before.
@@ -87,6 +87,7 @@ class CandidateTable {
  private:
   std::weak_ptr<const StepRecord> recorded_, shown_;  ///< whose rows these are
   std::weak_ptr<const RunHeader> recorded_header_, shown_header_;
+  std::weak_ptr<const Labels> shown_labels_;  ///< what the filter by segment is about
   std::vector<CandidateRow> recorded_rows_, rows_;
   std::vector<std::uint32_t> listed_;
   CandidateFilter filter_;

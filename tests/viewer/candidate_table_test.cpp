@@ -17,6 +17,7 @@ std::vector<CandidateRow> someRows() {
     CandidateRow row;
     row.id = i * 7;
     row.group = random() % 5;
+    row.segment = 10 + row.group;
     if (random() % 3 > 0) row.rank = random() % 50;
     row.score = random() % 40;
     row.saliency = row.group / 10.0;
@@ -88,8 +89,8 @@ TEST(CandidateTable, Filters) {
     EXPECT_NE(std::to_string(rows[i].id).find("49"), std::string::npos);
   ASSERT_FALSE(listed({.ranked_only = true}).empty());
   for (const std::uint32_t i : listed({.ranked_only = true})) EXPECT_TRUE(rows[i].rank || rows[i].pending());
-  ASSERT_FALSE(listed({.group = 3}).empty());
-  for (const std::uint32_t i : listed({.group = 3})) EXPECT_EQ(rows[i].group, 3u);
+  ASSERT_FALSE(listed({.segment = 13}).empty());
+  for (const std::uint32_t i : listed({.segment = 13})) EXPECT_EQ(rows[i].group, 3u);
   EXPECT_TRUE(listed({.text = "no such view"}).empty());
 }
 

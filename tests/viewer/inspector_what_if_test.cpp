@@ -202,5 +202,19 @@ TEST_F(InspectorWhatIfTest, TheEyeIsPlacedAfterTheShownStepWasReplaced) {
   EXPECT_TRUE(driver.inspector.preferences().eye->position.allFinite());
 }
 
+TEST_F(InspectorWhatIfTest, ASelectionEndsWhereCandidatesAreNumberedAnew) {
+  InspectorDriver driver;
+  driver.open(run());
+  const auto chosen = *driver.model().explainedView();
+  driver.ui.press({Key::Down});
+  ASSERT_NE(driver.model().explainedView(), chosen);
+  ASSERT_TRUE(driver.whatIf().setText(kB, "31"));  // the same candidates in another order
+  driver.ui.settle();
+  EXPECT_TRUE(driver.model().selected_view);
+  ASSERT_TRUE(driver.whatIf().setText("views.rolls", "4"));
+  driver.ui.settle();
+  EXPECT_FALSE(driver.model().selected_view);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -221,12 +221,12 @@ void filterLine(PanelContext& context) {
   if (!table.hierarchical()) {
     const auto view = context.model.explainedView();
     const CandidateRow* row = view ? table.find(*view) : nullptr;
-    bool only = filter.group.has_value();
+    bool only = filter.segment.has_value();
     sameLineIfFits("segment", Follows::CheckBox);
     ImGui::BeginDisabled(!only && !row);
     if (context.widgets.toggle("candidates/segment only", "segment", only)) {
-      filter.group.reset();
-      if (only && row) filter.group = row->group;
+      filter.segment.reset();
+      if (only && row) filter.segment = row->segment;
     }
     ImGui::EndDisabled();
     tip("only views of the selected view's segment");

@@ -161,9 +161,14 @@ void decision(PanelContext& context) {
   const auto nameOf = [](const StepData& data) {
     return data.record->hasView() ? "view " + std::to_string(data.record->chosen()->id) : std::string("none");
   };
+  const auto poseOf = [](const StepData& data) {
+    return data.record->hasView() ? std::optional(data.record->chosen()->T_world_camera) : std::nullopt;
+  };
   const std::string before = nameOf(then), after = nameOf(now);
-  if (before == after)
-    ImGui::Text("Decision: %s, as in the run", after.c_str());
+  const auto was = poseOf(then), is = poseOf(now);
+  const bool same = was && is ? was->isApprox(*is) : !was && !is;  // numbers may be given anew
+  if (same)
+    ImGui::Text("Decision: %s, as in the run", before.c_str());
   else
     ImGui::Text("Decision: %s  →  %s", before.c_str(), after.c_str());
   context.widgets.note("what-if/decision");
