@@ -253,5 +253,17 @@ TEST_F(InspectorViewTest, ADoubleClickLooksAtThePoint) {
   EXPECT_NEAR(after.distance(), before.distance(), 1e-6);
 }
 
+TEST_F(InspectorViewTest, WhatLiesUnderAPictureIsNotUnderTheMouse) {
+  InspectorDriver driver;
+  driver.open(run());
+  driver.ui.press({keyOf('V')});  // through the view: the scene fills the picture
+  driver.ui.hover("view/inset");
+  driver.ui.settle();
+  EXPECT_FALSE(driver.ui.has("view/hover"));
+  const Eye before = *driver.inspector.preferences().eye;
+  driver.ui.drag("view/inset", 0.3, 0.3, 0.7, 0.3);
+  EXPECT_EQ(driver.inspector.preferences().eye->position, before.position);
+}
+
 }  // namespace
 }  // namespace vantage

@@ -38,6 +38,8 @@ class ViewInsets {
   /// \param revision differs whenever the frame of the scene does
   void draw(PanelContext& context, Viewport& viewport, const ViewArea& area, float room, double pixel_scale,
             std::uint64_t revision);
+  /// The point of the window is on one of them, as drawn last.
+  bool cover(double x, double y) const;
 
  private:
   struct State;

@@ -57,8 +57,9 @@ struct Words {
 /// Places insets from the top downward.
 class Column {
  public:
-  Column(PanelContext& context, const ViewArea& area, float width)
-      : context_(context), area_(area), width_(width), top_(area.top + kGap_px) {}
+  /// \param boxes takes those of what is placed
+  Column(PanelContext& context, const ViewArea& area, float width, std::vector<WidgetBox>& boxes)
+      : context_(context), area_(area), width_(width), top_(area.top + kGap_px), boxes_(boxes) {}
 
   float width() const { return width_; }
   /// There is room for a picture of that height and what is written below it.
@@ -85,7 +86,8 @@ class Column {
     draw.AddRectFilled(low, end, packed(context_.theme.panel, 0.9));
     draw.ChannelsMerge();
     draw.AddRect(low, end, packed(border), 0.0f, 0, 2.0f);
-    context_.widgets.note(area_.name + "/" + name, {low.x, low.y, end.x, end.y, true});
+    boxes_.push_back({low.x, low.y, end.x, end.y, true});
+    context_.widgets.note(area_.name + "/" + name, boxes_.back());
     if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(low, end)) tellLegend(words.legend);
     top_ = end.y + kGap_px;
   }
@@ -104,12 +106,14 @@ class Column {
   PanelContext& context_;
   ViewArea area_;
   float width_, top_;
+  std::vector<WidgetBox>& boxes_;
 };
 
 }  // namespace
 
 struct ViewInsets::State {
   Picture view, layer;
+  std::vector<WidgetBox> boxes;          ///< of the last frame
   std::vector<LegendEntry> view_legend;  ///< of what the view counts and what ends its rays
 
   void drawView(PanelContext& context, Viewport& viewport, Column& column, double pixel_scale,
@@ -167,11 +171,18 @@ void ViewInsets::State::drawLayers(PanelContext& context, Column& column, std::u
 
 void ViewInsets::draw(PanelContext& context, Viewport& viewport, const ViewArea& area, float room,
                       double pixel_scale, std::uint64_t revision) {
+  state_->boxes.clear();
   const float width = std::min(kWidth_em * ImGui::GetFontSize(), room - 2.0f * kGap_px);
   if (width < kSmallest_px) return;
-  Column column(context, area, width);
+  Column column(context, area, width, state_->boxes);
   state_->drawView(context, viewport, column, pixel_scale, revision);
   state_->drawLayers(context, column, revision);
+}
+
+bool ViewInsets::cover(double x, double y) const {
+  return std::ranges::any_of(state_->boxes, [&](const WidgetBox& b) {
+    return x >= b.left && x < b.right && y >= b.top && y < b.bottom;
+  });
 }
 
 }  // namespace vantage

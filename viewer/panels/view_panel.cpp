@@ -36,9 +36,15 @@ std::string exactLength(double metres) {
 }  // namespace
 
 ViewPanel::ViewPanel(GlContext& context, Scene& scene, std::string name)
-    : name_(std::move(name)), scene_(scene), viewport_(context, scene) {}
+    : name_(std::move(name)), context_(context), scene_(scene), viewport_(context, scene) {}
 
-ViewPanel::~ViewPanel() = default;
+ViewPanel::~ViewPanel() {
+  try {
+    context_.makeCurrent();  // the insets' textures are in it
+  } catch (const std::exception&) {
+    // The context is gone, and its objects with it.
+  }
+}
 
 void ViewPanel::update(PanelContext& context, ViewSettings wanted) {
   const InspectorModel& model = context.model;
@@ -184,7 +190,7 @@ void ViewPanel::mouse(PanelContext& context, double left, double top) {
     return;
   }
   const Eigen::Vector2d at_px = pixel_scale_ * Eigen::Vector2d(io.MousePos.x - left, io.MousePos.y - top);
-  const bool hovered = ImGui::IsItemHovered();
+  const bool hovered = ImGui::IsItemHovered() && !insets_.cover(io.MousePos.x, io.MousePos.y);
   if (hovered && !viewport_.dragging()) {
     if (ImGui::IsMouseClicked(0)) viewport_.press(io.KeyShift ? Drag::Pan : Drag::Orbit, at_px);
     if (ImGui::IsMouseClicked(1) || ImGui::IsMouseClicked(2)) viewport_.press(Drag::Pan, at_px);

@@ -35,6 +35,8 @@ class ViewPanel {
   /// Two clicks measure a distance while it is on.
   bool measuring() const { return measuring_; }
   void toggleMeasuring();
+  /// What was measured belongs to another scene.
+  void forgetMeasured() { measured_.clear(); }
   /// Looks through the explained view.
   void lookThroughView(PanelContext& context);
   void orbitBy(double left_rad, double up_rad);
@@ -50,6 +52,7 @@ class ViewPanel {
   LayerNotes marks(PanelContext& context, double left, double top);
 
   std::string name_;
+  GlContext& context_;
   Scene& scene_;
   Viewport viewport_;
   double pixel_scale_ = 1.0;
