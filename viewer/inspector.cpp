@@ -40,6 +40,7 @@ struct Inspector::State {
   FileDialog dialog;
   std::function<void(const std::filesystem::path&)> after_dialog;  ///< what the chosen file is for
   bool close = false;
+  bool layers_wanted = true;  ///< nothing was shown so far
   Documents documents;
   /// Changes the documents at the next frame: a command must not take the ground from under itself.
   std::function<void()> at_next_frame;
@@ -236,6 +237,7 @@ void Inspector::State::followModel(Document& d) {
     const bool as_last = d.file_before.empty() && !preferences.recent_files.empty() &&
                          preferences.recent_files.front().path == std::filesystem::absolute(model.file());
     d.eye_wanted |= &d == &document() && !as_last;
+    d.view.forgetMeasured();
     d.file_before = model.file();
     d.place_before = model.place();
     preferences.addRecent(model.file());
@@ -250,7 +252,8 @@ void Inspector::State::followModel(Document& d) {
   LayerSet& shown = preferences.view.layers;
   // The same stage of another planner, or of the closing scan, has other layers.
   const bool other_stage = model.place().stage != d.place_before.stage || shown == d.stage_layers_before;
-  if (is_active && (shown == LayerSet() || other_stage)) shown = d.stageLayers();
+  const bool first = std::exchange(layers_wanted, false) && shown == LayerSet();
+  if (is_active && (first || other_stage)) shown = d.stageLayers();
   d.place_before = model.place();
   d.stage_layers_before = d.stageLayers();
 }
@@ -274,9 +277,9 @@ void Inspector::State::screenshot() {
   if (shown.empty() || !ports.picture) return;
   const std::string stem =
       model.file().stem().string() + "-step" + std::to_string(shown.record->step) + "-view";
-  std::filesystem::path file = stem + ".png";
-  for (int n = 2; std::filesystem::exists(file); ++n) file = stem + "-" + std::to_string(n) + ".png";
   try {
+    std::filesystem::path file = stem + ".png";
+    for (int n = 2; std::filesystem::exists(file); ++n) file = stem + "-" + std::to_string(n) + ".png";
     ViewSettings settings = preferences.view;
     settings.camera.eye = document().scene.eye();
     writePng(ports.picture(shown.frame(), settings, whatIfText(model.whatIf()), gl, 1280, 800), file);

@@ -235,5 +235,16 @@ TEST_F(InspectorTest, EveryCommandRunsWithoutFailing) {
   EXPECT_FALSE(driver.inspector.wantsToClose());
 }
 
+TEST_F(InspectorTest, LayersMayAllBeSwitchedOff) {
+  InspectorDriver driver;
+  driver.open(run());
+  driver.ui.click("timeline/stage fused");
+  for (const Layer layer : {Layer::Workspace, Layer::Axes, Layer::Occupied, Layer::Unknown, Layer::Surface})
+    if (driver.inspector.preferences().view.layers.has(layer))
+      driver.ui.click("layers/" + std::string(layerName(layer)));
+  driver.ui.settle();
+  EXPECT_EQ(driver.inspector.preferences().view.layers, LayerSet());
+}
+
 }  // namespace
 }  // namespace vantage
