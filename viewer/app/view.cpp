@@ -95,9 +95,15 @@ int openWindow(const GlobalOptions& global, const ViewOptions& options,
   Preferences last = inspector.toKeep();
   last.window_width = window.width();
   last.window_height = window.height();
-  savePreferences(kept, last);
-  if (error) std::rethrow_exception(error);
-  return 0;
+  if (!error) {
+    savePreferences(kept, last);
+    return 0;
+  }
+  try {
+    savePreferences(kept, last);
+  } catch (const std::exception&) {  // what ended the window is told
+  }
+  std::rethrow_exception(error);
 }
 
 int view(const GlobalOptions& global, const ViewOptions& options) {
