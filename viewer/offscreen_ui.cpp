@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "io/suggest.h"
+#include "viewer/drawn_words.h"
 #include "viewer/ui_host.h"
 
 namespace vantage {
@@ -120,11 +121,20 @@ void OffscreenUi::wheel(double clicks) {
 }
 
 void OffscreenUi::press(const Shortcut& keys) {
+  hold(keys);
+  release(keys);
+}
+
+void OffscreenUi::hold(const Shortcut& keys) {
   ImGuiIO& io = state_->io();
   io.KeyCtrl = keys.ctrl;
   io.KeyShift = keys.shift;
   io.KeysDown[static_cast<int>(keys.key)] = true;
   frame();
+}
+
+void OffscreenUi::release(const Shortcut& keys) {
+  ImGuiIO& io = state_->io();
   io.KeysDown[static_cast<int>(keys.key)] = false;
   io.KeyCtrl = io.KeyShift = false;
   frame();
@@ -197,6 +207,12 @@ void OffscreenUi::enter(const std::string& name, const std::string& text) {
 
 RgbImage OffscreenUi::image() const {
   return state_->surface.read();
+}
+
+std::string OffscreenUi::words() const {
+  const ImGuiIO& io = state_->io();
+  const ImDrawData* drawn = ImGui::GetDrawData();
+  return drawn ? drawnWords(*drawn, *io.Fonts) : "";
 }
 
 }  // namespace vantage

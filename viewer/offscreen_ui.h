@@ -31,6 +31,9 @@ class OffscreenUi {
   void wheel(double clicks);
   /// Down and up again, with a frame for each.
   void press(const Shortcut& keys);
+  /// Down until it is released, with a frame: keys that are held repeat while time passes.
+  void hold(const Shortcut& keys);
+  void release(const Shortcut& keys);
   void type(const std::string& utf8);
 
   // By name (Widgets). Each scrolls the widget into its panel first, draws the frames it needs, and throws
@@ -46,6 +49,8 @@ class OffscreenUi {
 
   /// What the last frame showed.
   RgbImage image() const;
+  /// All words that it drew, see drawnWords().
+  std::string words() const;
 
  private:
   struct State;

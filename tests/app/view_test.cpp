@@ -24,8 +24,11 @@ using testing::InspectorDriver;
 
 const std::string kB = "saliency.isolation_distance_m";
 
+/// Without a display, whatever the test has.
 ProcessResult runVantage(std::vector<std::string> words, const TemporaryFolder& folder) {
-  words.insert(words.begin(), VANTAGE_BINARY);
+  const std::vector<std::string> start = {"/usr/bin/env",    "-u",          "DISPLAY", "-u",
+                                          "WAYLAND_DISPLAY", VANTAGE_BINARY};
+  words.insert(words.begin(), start.begin(), start.end());
   ProcessOptions options;
   options.folder = folder.path();
   options.environment = {{"XDG_STATE_HOME", folder / "state"}, {"XDG_CONFIG_HOME", folder / "config"}};

@@ -1,6 +1,7 @@
 // The inspector, driven without a display: clicks, drags, keys and typing on its real widgets.
 #include "viewer/inspector.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/process.h"
@@ -11,7 +12,10 @@
 namespace vantage {
 namespace {
 
+using ::testing::HasSubstr;
 using testing::InspectorDriver;
+using ::testing::IsSubsetOf;
+using ::testing::Not;
 
 class InspectorTest : public testing::WithBallRun<3> {};
 
@@ -21,6 +25,9 @@ TEST_F(InspectorTest, AnEmptyWindowSaysHowToBegin) {
   EXPECT_TRUE(driver.inspector.idle());
   EXPECT_FALSE(driver.ui.has("timeline/play"));
   EXPECT_TRUE(driver.ui.has("menu/File"));
+  EXPECT_THAT(driver.ui.words(), HasSubstr("Open a run with Ctrl+O, or drop a file here."));
+  driver.open(run());
+  EXPECT_THAT(driver.ui.words(), Not(HasSubstr("or drop a file here")));
 }
 
 TEST_F(InspectorTest, OpensARunAtItsFirstStepWithTheChosenView) {
@@ -32,7 +39,8 @@ TEST_F(InspectorTest, OpensARunAtItsFirstStepWithTheChosenView) {
   EXPECT_TRUE(driver.model().shown().record->hasView());
   EXPECT_EQ(driver.notices(), "");
   EXPECT_TRUE(driver.ui.has("view/legend"));
-  EXPECT_TRUE(driver.ui.has("view/inset"));
+  ASSERT_TRUE(driver.ui.has("view/inset"));
+  EXPECT_GT(driver.coloursIn("view/inset", 0.5), 20u) << "it shows a picture, not paper";
 }
 
 TEST_F(InspectorTest, AnIdleWindowDrawsNoNewPictures) {
@@ -215,6 +223,11 @@ TEST_F(InspectorTest, ThePaletteRunsACommandAndF1ListsTheKeys) {
   driver.ui.press({Key::F1});
   driver.ui.frame();
   EXPECT_TRUE(driver.ui.has("cheat sheet"));
+  const std::string sheet = driver.ui.words();
+  for (const Command& command : driver.inspector.commands().all()) {
+    if (command.keys.key == Key::None) continue;
+    EXPECT_THAT(sheet, HasSubstr("\n" + textOf(command.keys) + " " + command.title));
+  }
   driver.ui.press({Key::Escape});
   driver.ui.frame();
   EXPECT_FALSE(driver.ui.has("cheat sheet"));
@@ -224,14 +237,22 @@ TEST_F(InspectorTest, EveryCommandRunsWithoutFailing) {
   InspectorDriver driver({}, 640, 400);
   driver.open(run());
   ASSERT_GT(driver.inspector.commands().all().size(), 50u);
+  ASSERT_TRUE(driver.whatIf().setText("gain.threshold", "900"));  // something to undo and to reset
+  std::vector<std::string> left_out;
   for (const Command& command : driver.inspector.commands().all()) {
     if (command.id == "file.quit" || command.id == "file.screenshot") continue;
+    if (!command.enabled()) left_out.push_back(command.id);
     if (command.enabled()) command.run();
     driver.ui.frame(0.01);
     driver.ui.press({Key::Escape});
+    EXPECT_EQ(driver.inspector.error(), std::nullopt) << command.id;
+    driver.model().dismissNotices();
   }
   driver.model().player.pause();
   driver.ui.settle();
+  EXPECT_EQ(driver.inspector.error(), std::nullopt);
+  EXPECT_THAT(left_out, IsSubsetOf({"file.close beside", "file.switch", "view.bookmark 2", "view.bookmark 3",
+                                    "view.bookmark 4", "what-if.cancel", "what-if.run again"}));
   EXPECT_FALSE(driver.inspector.wantsToClose());
 }
 

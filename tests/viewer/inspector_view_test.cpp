@@ -3,32 +3,24 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <set>
+#include <cmath>
+#include <numbers>
+#include <sstream>
 
 #include "tests/support/process.h"
 #include "tests/viewer/ball_run.h"
 #include "tests/viewer/inspector_driver.h"
 #include "viewer/commands.h"
+#include "viewer/pick_text.h"
 
 namespace vantage {
 namespace {
 
 using ::testing::HasSubstr;
 using testing::InspectorDriver;
+using ::testing::StartsWith;
 
 class InspectorViewTest : public testing::WithBallRun<2> {};
-
-/// Colours in a widget's box.
-std::size_t coloursIn(InspectorDriver& driver, const std::string& name) {
-  const WidgetBox* box = driver.inspector.widgets().find(name);
-  if (!box) return 0;
-  const RgbImage image = driver.ui.image();
-  std::set<std::array<std::uint8_t, 3>> colours;
-  for (int y = static_cast<int>(box->top) + 3; y < static_cast<int>(box->bottom) - 3; ++y)
-    for (int x = static_cast<int>(box->left) + 3; x < static_cast<int>(box->right) - 3; ++x)
-      colours.insert(image.at(x, y));
-  return colours.size();
-}
 
 TEST_F(InspectorViewTest, TheOverviewIsAStageThatOneComesBackTo) {
   InspectorDriver driver;
@@ -89,7 +81,7 @@ TEST_F(InspectorViewTest, TheScanComesWithItsDepthImage) {
   driver.ui.click("timeline/stage scan");
   driver.ui.settle();
   ASSERT_TRUE(driver.ui.has("view/depth"));
-  EXPECT_GT(coloursIn(driver, "view/depth"), 20u);
+  EXPECT_GT(driver.coloursIn("view/depth", 0.5), 20u);
 }
 
 TEST_F(InspectorViewTest, TheLegendIsFoldedAwayAndDoesNotStandInTheMousesWay) {
@@ -167,9 +159,27 @@ TEST_F(InspectorViewTest, TheButtonSavesAPictureAndSaysWhere) {
 TEST_F(InspectorViewTest, AHeldKeyTurnsTheSceneButSavesOnePicture) {
   InspectorDriver driver;
   driver.open(run());
-  EXPECT_TRUE(driver.inspector.commands().find("view.left")->repeats);
-  EXPECT_FALSE(driver.inspector.commands().find("file.screenshot")->repeats);
-  EXPECT_FALSE(driver.inspector.commands().find("timeline.play")->repeats);
+  const auto holdForASecond = [&](const Shortcut& keys) {
+    driver.ui.hold(keys);
+    for (int i = 0; i < 60; ++i) driver.ui.frame();
+    driver.ui.release(keys);
+    driver.ui.settle();
+  };
+  const auto azimuth = [&] {
+    const Eye& eye = *driver.inspector.preferences().eye;
+    return std::atan2(eye.position.y() - eye.focus.y(), eye.position.x() - eye.focus.x());
+  };
+  const double before = azimuth();
+  driver.ui.press({keyOf('A')});
+  const double once = std::remainder(azimuth() - before, 2.0 * std::numbers::pi);
+  ASSERT_GT(std::abs(once), 0.01);
+  holdForASecond({keyOf('A')});
+  EXPECT_GT(std::remainder(azimuth() - before, 2.0 * std::numbers::pi) / once, 4.0);
+  const std::filesystem::path folder = std::filesystem::current_path();
+  std::filesystem::current_path(folder_->path());
+  holdForASecond({keyOf('S'), true});
+  std::filesystem::current_path(folder);
+  EXPECT_EQ(driver.pictures_taken, 1);
 }
 
 TEST_F(InspectorViewTest, LayersThatAStageBroughtAreNotKeptForTheNextStart) {
@@ -212,9 +222,29 @@ TEST_F(InspectorViewTest, WhereTheLegendHasNoRoomItIsToldUnderTheMouse) {
 TEST_F(InspectorViewTest, HoverTellsWhatIsUnderTheMouse) {
   InspectorDriver driver;
   driver.open(run());
-  driver.ui.hover("view");
+  const WidgetBox view = *driver.inspector.widgets().find("view");
+  const auto expectWordsAt = [&](const Eigen::Vector2d& at, const std::string& begin) {
+    const double x = std::floor(at.x()), y = std::floor(at.y());  // a mouse is on whole pixels
+    driver.ui.moveMouse(x, y);
+    driver.ui.settle();
+    Picker picker;
+    const StepData& step = driver.model().shown();
+    const auto picked =
+        picker.at(step.frame(), driver.inspector.preferences().view, *driver.inspector.preferences().eye,
+                  {x - view.left, y - view.top}, driver.pictureSize());
+    ASSERT_TRUE(picked);
+    const std::string text = textOf(*picked, step, candidateRows(step.frame()));
+    EXPECT_THAT(text, StartsWith(begin));
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) EXPECT_THAT(driver.ui.words(), HasSubstr(line));
+  };
+  expectWordsAt({view.x(), view.y()}, "segment with label");
+  const ChosenView& chosen = *driver.model().shown().record->chosen();
+  expectWordsAt(driver.inWindow(chosen.T_world_camera.translation()),
+                "view " + std::to_string(chosen.id) + ", rank 1");
+  driver.ui.moveMouse(5, 790);
   driver.ui.settle();
-  EXPECT_TRUE(driver.ui.has("view/hover"));
+  EXPECT_FALSE(driver.ui.has("view/hover"));
 }
 
 TEST_F(InspectorViewTest, TwoClicksMeasureADistance) {

@@ -1,4 +1,5 @@
 // Parameters that are tried in the window: by sliders, fields, keys and files.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/support/process.h"
@@ -9,6 +10,8 @@
 namespace vantage {
 namespace {
 
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
 using testing::InspectorDriver;
 
 class InspectorWhatIfTest : public testing::WithBallRun<2> {};
@@ -25,7 +28,15 @@ TEST_F(InspectorWhatIfTest, AThresholdReRanksAtOnceAndIsSettledByAPathCheck) {
   driver.ui.click("tab/What if");
   const auto then = driver.model().recorded().record->chosen()->id;
   ASSERT_EQ(driver.whatIf().state(), WhatIfState::Recorded);
-  driver.ui.enter("what-if/" + kB + "/text", "15");
+  driver.ui.click("what-if/" + kB + "/text");
+  driver.ui.press({keyOf('A'), true});
+  driver.ui.type("15");
+  driver.ui.hold({Key::Enter});  // one frame
+  EXPECT_THAT(driver.whatIf().state(), AnyOf(WhatIfState::Checking, WhatIfState::Settled));
+  ASSERT_TRUE(driver.model().shown().record->hasView());
+  EXPECT_NE(driver.model().shown().record->chosen()->id, then);
+  driver.ui.release({Key::Enter});
+  EXPECT_THAT(driver.ui.words(), HasSubstr("Decision: view " + std::to_string(then) + " → view "));
   driver.ui.settle();
   EXPECT_DOUBLE_EQ(wanted(driver, kB), 0.015);
   EXPECT_EQ(driver.whatIf().state(), WhatIfState::Settled);

@@ -76,11 +76,17 @@ TEST_F(SideBySide, WhereOneViewIsTurnedTheOtherFollows) {
   driver.ui.settle();
   for (const std::string mine : {"view", "view 2"}) {
     const RgbImage before = driver.ui.image();
+    const Eye eye_before = *driver.inspector.preferences().eye;
     driver.ui.drag(mine, 0.5, 0.5, 0.9, 0.4);
     driver.ui.moveMouse(5, 790);
     driver.ui.settle();
     EXPECT_GT(changed(driver, before, "view"), 2000) << mine;
     EXPECT_GT(changed(driver, before, "view 2"), 2000) << mine;
+    const Eye turned = *driver.inspector.preferences().eye;
+    EXPECT_GT((turned.position - eye_before.position).norm(), 0.1) << mine;
+    driver.ui.press({keyOf('X')});  // the other one is active, and it is its eye that is kept
+    driver.ui.settle();
+    EXPECT_EQ(*driver.inspector.preferences().eye, turned) << mine;
   }
 }
 

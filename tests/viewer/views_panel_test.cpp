@@ -7,6 +7,7 @@
 #include "core/gpu/egl_context.h"
 #include "io/run_file.h"
 #include "tests/support/synthetic_record.h"
+#include "tests/viewer/inspector_driver.h"
 #include "viewer/candidates.h"
 #include "viewer/inspector.h"
 #include "viewer/inspector_model.h"
@@ -15,13 +16,15 @@
 namespace vantage {
 namespace {
 
+using testing::InspectorDriver;
+
 /// A window in which a run of three steps is open; what was realised is known of the first two.
 class ViewsPanel : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ =
-        std::filesystem::temp_directory_path() /
-        ("vantage-views-panel-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    folder_ = std::filesystem::temp_directory_path() /
+              ("vantage-views-panel-" +
+               std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
     std::filesystem::create_directories(folder_);
   }
 
@@ -75,6 +78,9 @@ class ViewsPanel : public ::testing::Test {
     ADD_FAILURE() << "no row of view " << id;
     return {};
   }
+
+  /// What the 3-D view shows.
+  RgbImage picture() { return InspectorDriver::part(ui_->image(), *inspector_->widgets().find("view")); }
 
   std::filesystem::path folder_;
   std::unique_ptr<EglContext> gl_;
@@ -167,10 +173,17 @@ TEST_F(ViewsPanel, ShowsWhatAViewCounts) {
   const auto shown = [&] { return inspector_->preferences().view.layers.has(Layer::HitVoxels); };
   if (shown()) ui_->click("explain/show counted");
   ASSERT_FALSE(shown());
+  ui_->moveMouse(5, 790);
+  ui_->settle();
+  const RgbImage before = picture();
   ui_->click("explain/show counted");
   EXPECT_TRUE(shown());
   EXPECT_TRUE(inspector_->preferences().view.layers.has(Layer::Occluders));
   EXPECT_FALSE(inspector_->preferences().view.layers.has(Layer::CoarseRays));
+  ui_->press({keyOf('O')});  // without the occluders
+  ui_->moveMouse(5, 790);
+  ui_->settle();
+  EXPECT_GT(InspectorDriver::differing(before, picture()), 200) << "voxels are lit";
 }
 
 TEST_F(ViewsPanel, ShowsTheRaysOfAViewOfTheHierarchicalPlanner) {
