@@ -37,13 +37,15 @@ std::filesystem::path ballScene() {
 }
 
 void recordRun(const std::filesystem::path& scene, const std::vector<std::string>& assignments,
-               const std::filesystem::path& run) {
+               const std::filesystem::path& run, const std::function<void(const StepRecord&)>& written) {
   const Settings settings = sceneSettings(scene.string(), assignments);
   RunWriter writer(run, headerOf(loadScene(scene.string()), settings));
   const SimulatedRun done =
       exploreScene(scene.string(), settings, 2, [&](const StepRecord& record, const WorldModel&) {
         if (record.stage == Stage::Realised) writer.setRealised(record);
-        if (record.stage == Stage::Done) writer.write(record);
+        if (record.stage != Stage::Done) return;
+        writer.write(record);
+        written(record);
       });
   writer.finish(done.stop_reason);
 }

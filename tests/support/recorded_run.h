@@ -1,8 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
+
+namespace vantage {
+struct StepRecord;
+}
 
 namespace vantage::testing {
 
@@ -11,8 +16,10 @@ namespace vantage::testing {
 std::filesystem::path ballScene();
 
 /// Explores a scene (file or built-in name) with assignments `key=value` on top of its configuration, and
-/// records it as `vantage explore` does.
-void recordRun(const std::filesystem::path& scene, const std::vector<std::string>& assignments,
-               const std::filesystem::path& run);
+/// records it as `vantage explore` does. \param written is called after each step, while the file is open
+void recordRun(
+    const std::filesystem::path& scene, const std::vector<std::string>& assignments,
+    const std::filesystem::path& run,
+    const std::function<void(const StepRecord&)>& written = [](const StepRecord&) {});
 
 }  // namespace vantage::testing
