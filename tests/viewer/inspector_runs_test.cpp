@@ -9,6 +9,7 @@
 #include "tests/viewer/ball_run.h"
 #include "tests/viewer/inspector_driver.h"
 #include "viewer/candidates.h"
+#include "viewer/explanation.h"
 
 namespace vantage {
 namespace {
@@ -119,6 +120,25 @@ TEST_F(InspectorRunsTest, AClickOnAFrustumSelectsItsRow) {
     if (++clicked == 3) break;
   }
   EXPECT_EQ(clicked, 3) << "too few frusta stand apart";
+}
+
+TEST_F(InspectorRunsTest, AViewThatCannotBeTakenSaysWhyBesideTheChosenOne) {
+  InspectorDriver driver;
+  driver.open(run());
+  const SceneFrame frame = driver.model().shown().frame();
+  const std::vector<CandidateRow> rows = candidateRows(frame);
+  const auto refused =
+      std::ranges::find_if(rows, [](const CandidateRow& r) { return isUnreachable(r.reachability); });
+  ASSERT_NE(refused, rows.end());
+  driver.ui.enter("candidates/filter", std::to_string(refused->id));
+  driver.ui.settle();
+  std::string words = driver.ui.words();
+  std::ranges::replace(words, '\n', ' ');  // the panel breaks lines
+  const std::string why = explain(frame, rows, refused->id).sentence;
+  EXPECT_THAT(why, ::testing::StartsWith("Rejected: "));
+  EXPECT_THAT(words, HasSubstr(why));
+  const std::uint32_t chosen = driver.model().shown().record->chosen()->id;
+  EXPECT_THAT(words, HasSubstr("view " + std::to_string(refused->id) + " chosen: " + std::to_string(chosen)));
 }
 
 TEST_F(InspectorRunsTest, TheTickOnASliderStandsAtThePapersValue) {
