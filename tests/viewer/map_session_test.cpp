@@ -9,6 +9,7 @@
 #include "tests/support/process.h"
 #include "tests/support/synthetic_record.h"
 #include "viewer/captions.h"
+#include "viewer/layers/layer.h"
 #include "viewer/scene.h"
 
 namespace vantage::test {
@@ -82,6 +83,7 @@ TEST(MapSession, ShowsCloudsAsSurfaceAndMeshesAsTruth) {
   const StepData points = openAsStep(folder / "cloud.pcd");
   expectDrawable(points);
   EXPECT_EQ(points.record->surface->points, cloud.points);
+  EXPECT_FALSE(buildLayer(Layer::Surface, points.frame(), {}).props.empty());
   for (const Eigen::Vector3f& p : cloud.points)
     EXPECT_TRUE(points.header->workspace.contains(p.cast<double>()));
 
@@ -89,6 +91,7 @@ TEST(MapSession, ShowsCloudsAsSurfaceAndMeshesAsTruth) {
   writeMesh(folder / "mesh.ply", cloud);
   const StepData mesh = openAsStep(folder / "mesh.ply");
   expectDrawable(mesh);
+  EXPECT_FALSE(buildLayer(Layer::Truth, mesh.frame(), {}).props.empty());
   EXPECT_EQ(mesh.header->truth.triangles.size(), 2u);
   EXPECT_FALSE(mesh.record->surface);
 }

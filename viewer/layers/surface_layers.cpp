@@ -125,10 +125,24 @@ LayerContent truthLayer(const SceneFrame& frame, const LayerStyle& style) {
   return content;
 }
 
+/// Points that no triangles join.
+LayerContent cloudLayer(const SurfaceCloud& cloud, const LayerStyle& style) {
+  LayerContent content;
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(cloud.points.size());
+  for (const Eigen::Vector3f& p : cloud.points)
+    if (p.allFinite()) points.push_back(p.cast<double>());
+  if (points.empty()) return content;
+  content.props.push_back(dotActor(points, {}, palette::kSurface, 3.0 * style.line_scale));
+  content.legend.push_back({LegendEntry::Mark::Dot, palette::kSurface, 1.0, "points"});
+  return content;
+}
+
 LayerContent surfaceLayer(const SceneFrame& frame, const LayerStyle& style) {
   LayerContent content;
-  if (!hasMesh(frame.record)) return content;
+  if (!frame.record.surface) return content;
   const SurfaceCloud& surface = *frame.record.surface;
+  if (surface.triangles.empty()) return cloudLayer(surface, style);
   content.props.push_back(triangleActor(surface.points, surface.normals, surface.triangles, {},
                                         palette::kSurface, style.surface_opacity));
   content.legend.push_back({LegendEntry::Mark::Fill, palette::kSurface, 1.0, "fused surface"});

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "viewer/layers/layer.h"
@@ -113,6 +114,7 @@ class Column {
 
 struct ViewInsets::State {
   Picture view, layer;
+  std::uint64_t of_step = 0;
   std::vector<WidgetBox> boxes;          ///< of the last frame
   std::vector<LegendEntry> view_legend;  ///< of what the view counts and what ends its rays
 
@@ -128,6 +130,8 @@ ViewInsets::~ViewInsets() = default;
 /// until its picture is there.
 void ViewInsets::State::drawView(PanelContext& context, Viewport& viewport, Column& column,
                                  double pixel_scale, std::uint64_t revision) {
+  // A picture of another step would be taken for one of this.
+  if (std::exchange(of_step, context.model.revision()) != of_step) view.filled = false;
   const auto id = context.model.explainedView();
   if (!context.preferences.show_inset || !id) return;
   const SceneFrame frame = context.model.shown().frame();
