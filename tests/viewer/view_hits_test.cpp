@@ -2,6 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <vtkActor.h>
+#include <vtkDataArray.h>
+#include <vtkMapper.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
 
 #include <algorithm>
 
@@ -9,6 +14,7 @@
 #include "io/error.h"
 #include "tests/support/synthetic_record.h"
 #include "viewer/layers/layer.h"
+#include "viewer/layers/prop_look.h"
 
 namespace vantage {
 namespace {
@@ -156,6 +162,22 @@ TEST(ExplainLayers, NameTheirCounts) {
   const LayerContent occluders = buildLayer(Layer::Occluders, run.frame(), {});
   ASSERT_FALSE(occluders.props.empty());
   for (const LegendEntry& entry : occluders.legend) EXPECT_EQ(entry.mark, LegendEntry::Mark::Striped);
+}
+
+TEST(ExplainLayers, LitVoxelsShineInEveryTheme) {
+  LayerContent lit = buildLayer(Layer::HitVoxels, sharedRun().frame(), {});
+  applyTheme(lit, {rgb(24, 26, 30), rgb(230, 232, 235)});
+  int dots = 0;
+  for (const auto& prop : lit.props) {
+    auto* actor = vtkActor::SafeDownCast(prop);
+    auto* data = actor ? vtkPolyData::SafeDownCast(actor->GetMapper()->GetInput()) : nullptr;
+    if (!data || data->GetNumberOfVerts() == 0) continue;
+    ++dots;
+    vtkDataArray* colors = data->GetPointData()->GetScalars();
+    ASSERT_TRUE(colors) << "a theme would change its colour";
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(colors->GetComponent(0, c), palette::kLit.bytes()[c]);
+  }
+  EXPECT_GT(dots, 0);
 }
 
 TEST(ExplainLayers, OctreeViewsHaveOccludersToo) {

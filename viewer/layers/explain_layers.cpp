@@ -30,7 +30,9 @@ void addLit(LayerContent& content, const GridGeometry& grid, const std::vector<s
   for (const std::size_t index : voxels) centers.push_back(grid.center(grid.voxel(index)));
   content.props.push_back(faceActor(faces, palette::kLit, 1.0));
   content.props.push_back(lineActor(edges, palette::kUnknownEdge, 1.0 * line_scale, 0.6));
-  content.props.push_back(dotActor(centers, {}, palette::kLit, 5.0 * line_scale));
+  // A colour for each dot, which stays in every theme: they lie on the faces, not on the background.
+  const std::vector<Rgb> colors(centers.size(), palette::kLit);
+  content.props.push_back(dotActor(centers, colors, palette::kLit, 5.0 * line_scale));
 }
 
 /// Striped voxels with their legend.
