@@ -40,6 +40,7 @@ struct Inspector::State {
   FileDialog dialog;
   std::function<void(const std::filesystem::path&)> after_dialog;  ///< what the chosen file is for
   bool close = false;
+  bool walks_panels = false;
   bool layers_wanted = true;  ///< nothing was shown so far
   Documents documents;
   /// Changes the documents at the next frame: a command must not take the ground from under itself.
@@ -54,6 +55,7 @@ struct Inspector::State {
   PanelContext panelContext(Document& d);
   PanelContext panelContext() { return panelContext(document()); }
   void keys();
+  bool beginsToWalkPanels();
   void viewWindows(const WindowLayout& l, double pixel_scale);
   void viewWindow(Document& d, double left, double right, const WindowLayout& l, double pixel_scale);
   void viewTitle(Document& d, double left, double top);
@@ -148,22 +150,33 @@ PanelContext Inspector::State::panelContext(Document& d) {
           [&d](const Eye& eye) { d.view.setEye(eye); }};
 }
 
-/// Commands by their keys, unless something is being typed.
+/// Commands by their keys, but for those that a field or the panels take.
 void Inspector::State::keys() {
   const ImGuiIO& io = ImGui::GetIO();
-  if (io.WantTextInput || dialog.isOpen() || io.KeyAlt || io.KeySuper) return;
+  if (dialog.isOpen() || io.KeyAlt || io.KeySuper) return;
   for (const Command& command : commands->list().all()) {
     const Shortcut& keys = command.keys;
     if (keys.key == Key::None || keys.ctrl != io.KeyCtrl) continue;
+    if (io.WantTextInput && belongsToField(keys)) continue;
     // A plus needs Shift on some keyboards.
     if (keys.shift != io.KeyShift && keys.key != Key::Equal) continue;
-    // Panels that are walked through with the keys keep the plain ones to themselves.
-    if (preferences.keyboard_navigation && io.NavVisible && !keys.ctrl && keys.key < functionKey(1)) continue;
+    if (preferences.keyboard_navigation && !keys.ctrl && walksPanels(keys.key)) continue;
     if (ImGui::IsKeyPressed(static_cast<int>(keys.key), command.repeats) && command.enabled()) {
       command.run();
       return;
     }
   }
+}
+
+/// Keys that move inside the panels begin in the left one. \return whether they do in this frame
+bool Inspector::State::beginsToWalkPanels() {
+  const bool begins = preferences.keyboard_navigation && !walks_panels;
+  walks_panels = preferences.keyboard_navigation;
+  if (begins)
+    document().model.say(
+        Notice::Level::Info,
+        "keys move inside the panels: arrows, Space and Enter, Esc to leave one; F6 ends it");
+  return begins;
 }
 
 /// File, step and, in the active one, a line in the accent's colour.
@@ -237,6 +250,9 @@ void Inspector::State::followModel(Document& d) {
     const bool as_last = d.file_before.empty() && !preferences.recent_files.empty() &&
                          preferences.recent_files.front().path == std::filesystem::absolute(model.file());
     d.eye_wanted |= &d == &document() && !as_last;
+    const bool first_file = d.file_before.empty() && &d == &document();
+    if (first_file && !as_last && !preferences.recent_files.empty())
+      preferences.view.layers = {};  // the remembered ones are those of another file
     d.view.forgetMeasured();
     d.file_before = model.file();
     d.place_before = model.place();
@@ -331,7 +347,7 @@ void Inspector::draw(double pixel_scale) {
   PanelContext context = s.panelContext();
   const WindowLayout layout = windowLayout(s.preferences);
   menuBar(context);
-  leftPart(context, layout);
+  leftPart(context, layout, s.beginsToWalkPanels());
   rightPart(context, layout);
   s.viewWindows(layout, pixel_scale);  // after the panels: what they change is seen in this frame
   timelinePart(context, layout);

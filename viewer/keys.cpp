@@ -34,6 +34,16 @@ std::string nameOf(Key key) {
 
 }  // namespace
 
+bool belongsToField(const Shortcut& shortcut) {
+  if (shortcut.key >= functionKey(1) && shortcut.key <= functionKey(12)) return false;
+  if (!shortcut.ctrl || shortcut.key >= Key::Escape) return true;
+  return std::string("ACVXZY").find(static_cast<char>(shortcut.key)) != std::string::npos;
+}
+
+bool walksPanels(Key key) {
+  return key == Key::Space || (key >= Key::Escape && key <= Key::End) || key == Key::KeypadEnter;
+}
+
 std::string textOf(const Shortcut& shortcut) {
   if (shortcut.key == Key::None) return "";
   return std::string(shortcut.ctrl ? "Ctrl+" : "") + (shortcut.shift ? "Shift+" : "") + nameOf(shortcut.key);

@@ -52,6 +52,11 @@ struct Shortcut {
   bool operator==(const Shortcut&) const = default;
 };
 
+/// A field that is typed into wants it for itself.
+bool belongsToField(const Shortcut& shortcut);
+/// It moves inside the panels, where keys do.
+bool walksPanels(Key key);
+
 /// For menus and the cheat sheet: "Ctrl+Shift+P"; empty without a key.
 std::string textOf(const Shortcut& shortcut);
 

@@ -70,5 +70,20 @@ TEST(Keys, ShortcutsReadAsPeopleWriteThem) {
   EXPECT_EQ(textOf({}), "");
 }
 
+TEST(Keys, AFieldTakesLettersAndItsOwnShortcutsOnly) {
+  EXPECT_TRUE(belongsToField({keyOf('H')}));
+  EXPECT_TRUE(belongsToField({Key::Left}));
+  EXPECT_TRUE(belongsToField({Key::Left, true})) << "word by word";
+  EXPECT_TRUE(belongsToField({keyOf('Z'), true}));
+  EXPECT_FALSE(belongsToField({functionKey(1)}));
+  EXPECT_FALSE(belongsToField({keyOf('R'), true}));
+}
+
+TEST(Keys, PanelsTakeWhatMovesInThem) {
+  for (const Key key : {Key::Up, Key::Tab, Key::Space, Key::Enter, Key::Escape})
+    EXPECT_TRUE(walksPanels(key));
+  for (const Key key : {keyOf('V'), functionKey(6), Key::Comma}) EXPECT_FALSE(walksPanels(key));
+}
+
 }  // namespace
 }  // namespace vantage

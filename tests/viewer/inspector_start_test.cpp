@@ -121,6 +121,19 @@ TEST_F(InspectorStartTest, AfterF6KeysMoveInsideThePanels) {
   EXPECT_EQ(driver.inspector.preferences().view.layers, wanted);
 }
 
+TEST_F(InspectorStartTest, F6NeedsNoClickBefore) {
+  InspectorDriver driver;
+  driver.open(run());
+  const LayerSet before = driver.inspector.preferences().view.layers;
+  const auto explained = driver.model().explainedView();
+  driver.ui.press({functionKey(6)});
+  for (int i = 0; i < 3; ++i) driver.ui.press({Key::Down});
+  driver.ui.press({Key::Space});
+  driver.ui.settle();
+  EXPECT_NE(driver.inspector.preferences().view.layers, before) << "a layer was switched";
+  EXPECT_EQ(driver.model().explainedView(), explained) << "the arrows were the panel's";
+}
+
 TEST_F(InspectorStartTest, LoopAndSpeedAreSetBesideThePlayButton) {
   InspectorDriver driver;
   driver.open(run());

@@ -164,6 +164,9 @@ bool ViewPanel::draw(PanelContext& context, const ViewSettings& settings, double
                              ImGuiButtonFlags_MouseButtonMiddle);
   context.widgets.note(name_);
   const bool used = ImGui::IsItemActive();
+  if (measuring_ && !ImGui::GetIO().WantTextInput &&
+      ImGui::IsKeyPressed(static_cast<int>(Key::Escape), false))
+    toggleMeasuring();
   if (has_frame_) {
     mouse(context, at.x, at.y);
     const LayerNotes notes = marks(context, at.x, at.y);

@@ -13,12 +13,13 @@ namespace {
 constexpr double kSmallestPanel_em = 12.0, kLargestPanel_em = 60.0, kSmallestView_em = 16.0;
 constexpr double kSmallestTimeline_em = 7.0, kLargestTimeline_em = 40.0;
 
-/// A tab whose content scrolls by itself.
+/// A tab whose content scrolls by itself. \param takes_keys they move inside it from now on
 template <class Content>
-void tab(PanelContext& context, const char* title, const Content& content) {
+void tab(PanelContext& context, const char* title, bool takes_keys, const Content& content) {
   const bool open = ImGui::BeginTabItem(title);
   context.widgets.note("tab/" + std::string(title));
   if (!open) return;
+  if (takes_keys) ImGui::SetNextWindowFocus();
   if (ImGui::BeginChild(title)) content();
   ImGui::EndChild();
   ImGui::EndTabItem();
@@ -106,12 +107,12 @@ bool beginPart(const char* name, double left, double top, double right, double b
   return ImGui::Begin(name, nullptr, kFixed | flags);
 }
 
-void leftPart(PanelContext& context, const WindowLayout& l) {
+void leftPart(PanelContext& context, const WindowLayout& l, bool takes_keys) {
   if (l.left <= 0.0) return;
   if (beginPart("left", 0.0, l.menu, l.left, l.viewBottom(), ImGuiWindowFlags_NoBringToFrontOnFocus) &&
       ImGui::BeginTabBar("left tabs")) {
-    tab(context, "Layers", [&] { layersPanel(context); });
-    tab(context, "What if", [&] { whatIfPanel(context); });
+    tab(context, "Layers", takes_keys, [&] { layersPanel(context); });
+    tab(context, "What if", takes_keys, [&] { whatIfPanel(context); });
     ImGui::EndTabBar();
   }
   ImGui::End();
@@ -122,7 +123,7 @@ void rightPart(PanelContext& context, const WindowLayout& l) {
   if (beginPart("right", l.width - l.right, l.menu, l.width, l.viewBottom(),
                 ImGuiWindowFlags_NoBringToFrontOnFocus) &&
       ImGui::BeginTabBar("right tabs")) {
-    tab(context, "Views", [&] {
+    tab(context, "Views", false, [&] {
       const float half = ImGui::GetContentRegionAvail().y * 0.52f;
       if (ImGui::BeginChild("candidates", {0.0f, half})) candidatesPanel(context);
       ImGui::EndChild();
@@ -130,7 +131,7 @@ void rightPart(PanelContext& context, const WindowLayout& l) {
       if (ImGui::BeginChild("explain")) explainPanel(context);
       ImGui::EndChild();
     });
-    tab(context, "Gains", [&] { gainsPanel(context); });
+    tab(context, "Gains", false, [&] { gainsPanel(context); });
     ImGui::EndTabBar();
   }
   ImGui::End();

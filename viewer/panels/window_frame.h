@@ -25,7 +25,8 @@ bool beginPart(const char* name, double left, double top, double right, double b
 void menuBar(PanelContext& context);  ///< all commands by group, recent files, what is open
 
 // The parts around the 3-D view.
-void leftPart(PanelContext& context, const WindowLayout& layout);      ///< layers, what-if
+/// Layers, what-if. \param takes_keys they move inside it from now on
+void leftPart(PanelContext& context, const WindowLayout& layout, bool takes_keys);
 void rightPart(PanelContext& context, const WindowLayout& layout);     ///< candidates and explanation, gains
 void timelinePart(PanelContext& context, const WindowLayout& layout);  ///< at the lower edge
 void statusBar(PanelContext& context, const WindowLayout& layout);     ///< what is being done
