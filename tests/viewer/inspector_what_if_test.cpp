@@ -40,7 +40,7 @@ TEST_F(InspectorWhatIfTest, AThresholdReRanksAtOnceAndIsSettledByAPathCheck) {
   driver.ui.settle();
   EXPECT_DOUBLE_EQ(wanted(driver, kB), 0.015);
   EXPECT_EQ(driver.whatIf().state(), WhatIfState::Settled);
-  EXPECT_THAT(driver.ui.words(), HasSubstr("\nnow first\n")) << "where the arrow in the scene ends";
+  EXPECT_THAT(driver.ui.words(), HasSubstr("\nnow chosen\n")) << "where the arrow in the scene ends";
   EXPECT_THAT(driver.ui.words(), HasSubstr("\n▲")) << "rows that came forward";
   const StepRecord& now = *driver.model().shown().record;
   ASSERT_TRUE(now.hasView());

@@ -241,7 +241,7 @@ void countsLine(PanelContext& context) {
   const auto ranked = std::ranges::count_if(rows, [](const CandidateRow& r) { return r.rank.has_value(); });
   const auto pending = std::ranges::count_if(rows, &CandidateRow::pending);
   std::string text = grouped(ranked) + " of " + plural(rows.size() - pending, "view") + " ranked";
-  if (pending > 0) text += ", " + plural(pending, "segment") + " pending";
+  if (pending > 0) text += ", " + plural(pending, "segment") + " not scored";
   if (table.listed().size() != rows.size()) text += "; " + grouped(table.listed().size()) + " listed";
   faintText(context.theme, text);
 }

@@ -174,7 +174,11 @@ void countedLine(PanelContext& context, const Explanation& e) {
                      isSame(state.counted->states, shown.states) && isSame(state.counted->tree, shown.tree);
   if (!known && ImGui::IsMouseDown(0)) return;
   if (!known) state.counted = {*region, shown.states, shown.tree, countedVoxels(shown.frame(), *region)};
-  faintText(context.theme, "It sees " + grouped(state.counted->voxels) + " unknown voxels that count.");
+  const std::string voxels = grouped(state.counted->voxels) + " unknown voxels";
+  // Coarse rays may miss what all of the finest would see.
+  faintText(context.theme, onOctree(shown.frame())
+                               ? "Without coarse rays it would see " + voxels + " of the object's box."
+                               : "It sees " + voxels + " that count.");
   context.widgets.note("explain/voxels");
 }
 
@@ -186,8 +190,13 @@ void explainPanel(PanelContext& context) {
   if (shown.empty() || !id) {
     if (shown.empty())
       emptyText(context, "explain", "No step is open.");
+    else if (shown.record->closing)
+      faintText(context.theme, "Nothing was planned on the map after the last scan.");
+    else if (context.model.isRun())
+      wrappedText((onOctree(shown.frame()) ? utilityFigures : viewFigures)(shown.frame(), {}));
     else
-      faintText(context.theme, "No view was chosen; select one to see why.");
+      faintText(context.theme, "The file holds no plan.");
+    context.widgets.note("explain/no view");
     return;
   }
   context.candidates.table.show(context.model.recorded(), shown);

@@ -45,7 +45,7 @@ void recentItems(PanelContext& context) {
 std::string titleFor(const InspectorModel& model, float room) {
   if (model.file().empty()) return "no file is open";
   const std::string name = model.file().filename().string();
-  if (model.shown().empty()) return name;
+  if (model.shown().empty() || !model.isRun()) return name;
   const StepData& shown = model.shown();
   const std::string step = shown.record->closing ? "the end" : "step " + std::to_string(shown.record->step);
   for (const std::string& text : {name + "   ·   " + stepLine(shown.frame()), name + "   ·   " + step})

@@ -19,7 +19,7 @@ void markOtherChoice(PanelContext& context, const SceneMarks& marks, LayerNotes&
   if (then.T_world_camera.isApprox(now.T_world_camera)) return;
   marks.frustum(viewCamera(recorded.frame()), then.T_world_camera, packed(theme.faint));
   marks.arrow(then.T_world_camera.translation(), now.T_world_camera.translation(), packed(theme.accent));
-  marks.text(now.T_world_camera.translation(), "now first", theme);
+  marks.text(now.T_world_camera.translation(), "now chosen", theme);
   notes.legend.push_back(
       {Mark::Line, theme.faint, 1.0, "view that the run chose, with an arrow to the one now"});
 }

@@ -255,7 +255,7 @@ void curveLegend(PanelContext& context) {
   entry(context.theme.curve, "unknown, up to " + volumeText(curves.most_unknown_m3));
   if (curves.has_coverage) entry(context.theme.second_curve, "coverage, 0..100 %");
   if (curves.most_gain > 0.0)
-    entry(context.theme.third_curve, "gain, up to " + shortNumber(curves.most_gain));
+    entry(context.theme.third_curve, "gain, up to " + shortNumber(curves.most_gain) + " rays");
 }
 
 }  // namespace
