@@ -26,6 +26,7 @@ struct LegendEntry {
   Rgb color;
   double opacity = 1.0;
   std::string text;
+  bool operator==(const LegendEntry&) const = default;
 };
 
 /// A colour scale with its unit.

@@ -54,16 +54,16 @@ void drawMark(ImDrawList& draw, ImVec2 at, float size, const LegendEntry& entry,
 }
 
 /// Width of the widest line, if there is room for it.
-float widthOf(const std::vector<const LayerNotes*>& notes) {
+float widthOf(const std::vector<LayerNotes>& notes) {
   const float em = ImGui::GetFontSize() * kTextScale;
   float widest = 0.0f;
-  for (const LayerNotes* layer : notes) {
-    for (const LegendEntry& entry : layer->legend)
+  for (const LayerNotes& layer : notes) {
+    for (const LegendEntry& entry : layer.legend)
       widest = std::max(widest, kTextScale * ImGui::CalcTextSize(entry.text.c_str()).x + kMark_em * em +
                                     ImGui::GetStyle().ItemSpacing.x);
-    if (layer->scale)
+    if (layer.scale)
       widest =
-          std::max({widest, kTextScale * ImGui::CalcTextSize(layer->scale->title.c_str()).x, kScale_em * em});
+          std::max({widest, kTextScale * ImGui::CalcTextSize(layer.scale->title.c_str()).x, kScale_em * em});
   }
   return widest + 2.0f * ImGui::GetStyle().WindowPadding.x +
          0.5f * em;  // else rounding breaks the widest line
@@ -80,6 +80,21 @@ void drawNotes(const LayerNotes& notes, const Theme& theme, float width_px = 0.0
                  theme);
 }
 
+/// What several layers explain is explained once.
+std::vector<LayerNotes> withoutRepeats(const std::vector<const LayerNotes*>& notes) {
+  std::vector<LayerNotes> once;
+  std::vector<LegendEntry> known;
+  for (const LayerNotes* layer : notes) {
+    LayerNotes& kept = once.emplace_back(LayerNotes{{}, layer->scale, {}});
+    for (const LegendEntry& entry : layer->legend) {
+      if (std::ranges::find(known, entry) != known.end()) continue;
+      known.push_back(entry);
+      kept.legend.push_back(entry);
+    }
+  }
+  return once;
+}
+
 /// In less it would cover the scene.
 bool hasRoomForLegend(const ViewArea& area) {
   constexpr float kLeastWidth_em = 26.0f, kLeastHeight_em = 20.0f;
@@ -94,9 +109,9 @@ void foldButton(PanelContext& context, const std::string& view, bool shown) {
 }
 
 /// While it is folded, or there is no room for it.
-void tellNotes(const std::vector<const LayerNotes*>& notes, const Theme& theme) {
+void tellNotes(const std::vector<LayerNotes>& notes, const Theme& theme) {
   ImGui::BeginTooltip();
-  for (const LayerNotes* layer : notes) drawNotes(*layer, theme, kTooltip_em * ImGui::GetFontSize());
+  for (const LayerNotes& layer : notes) drawNotes(layer, theme, kTooltip_em * ImGui::GetFontSize());
   ImGui::EndTooltip();
 }
 
@@ -143,9 +158,10 @@ void drawColorScale(const ColorScale& scale, float width, const Theme& theme) {
 
 float legendOverlay(PanelContext& context, const ViewArea& area, const LayerNotes& more) {
   constexpr float kLargestShare = 0.45f;
-  std::vector<const LayerNotes*> notes = context.scene.shownNotes();
-  notes.push_back(&more);
-  std::erase_if(notes, [](const LayerNotes* n) { return n->legend.empty() && !n->scale; });
+  std::vector<const LayerNotes*> shown_notes = context.scene.shownNotes();
+  shown_notes.push_back(&more);
+  std::vector<LayerNotes> notes = withoutRepeats(shown_notes);
+  std::erase_if(notes, [](const LayerNotes& n) { return n.legend.empty() && !n.scale; });
   if (notes.empty()) return 0.0f;
   const float left = area.left + kGap_px, bottom = area.bottom - kGap_px;
   beginOverlay(area.name + " fold", left, bottom, 0);
@@ -159,7 +175,7 @@ float legendOverlay(PanelContext& context, const ViewArea& area, const LayerNote
   ImGui::SetNextWindowSize({width, 0.0f});
   ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {width, std::max(1.0f, bottom - button.y - area.top)});
   beginOverlay(area.name + " legend", left, bottom - button.y, ImGuiWindowFlags_NoInputs);
-  for (const LayerNotes* layer : notes) drawNotes(*layer, context.theme);
+  for (const LayerNotes& layer : notes) drawNotes(layer, context.theme);
   const ImVec2 at = ImGui::GetWindowPos(), extent = ImGui::GetWindowSize();
   context.widgets.note(area.name + "/legend", {at.x, at.y, at.x + extent.x, at.y + extent.y, true});
   ImGui::End();
