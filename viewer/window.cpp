@@ -36,7 +36,8 @@ std::string& lastError() {
   if (!lastError().empty()) text += " (" + lastError() + ")";
   if (!display || !*display) text += "; DISPLAY is not set";
   throw WindowUnavailable(text +
-                          "; without a display use 'vantage snapshot', or run it under xvfb-run (package "
+                          "; without a display use 'vantage view FILE --picture OUT.png' or 'vantage "
+                          "snapshot', or run it under xvfb-run (package "
                           "xvfb); 'vantage doctor' says what OpenGL there is");
 }
 

@@ -51,6 +51,12 @@ TEST(Usage, UnknownKeysSuggestTheNearest) {
                 {"saliency.isolation_dist_m", "did you mean", "saliency.isolation_distance_m"});
 }
 
+TEST(Usage, TheWindowRefusesWhatItWouldIgnore) {
+  expectRefused(vantage({"view", "tabletop", "--set", "saliency.isolation_distance_m=0.01"}),
+                {"--set", "beside the run"});
+  expectRefused(vantage({"view", "tabletop", "--picture", "window.jpg"}), {"window.jpg", ".png"});
+}
+
 TEST(Usage, ValuesOutOfRangeNameTheRange) {
   expectRefused(vantage({"config", "--set", "saliency.isolation_distance_m=7"}),
                 {"saliency.isolation_distance_m", "7", "allowed"});

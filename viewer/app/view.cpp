@@ -107,7 +107,15 @@ int openWindow(const GlobalOptions& global, const ViewOptions& options,
 }
 
 int view(const GlobalOptions& global, const ViewOptions& options) {
-  const auto files = knownFiles(options.files);
+  if (!global.assignments.empty())
+    throw InputError("--set",
+                     "does nothing here: put it into a file and open that beside the run, "
+                     "vantage view RUN.vantage FILE.toml");
+  std::vector<std::string> named = options.files;
+  named.insert(named.end(), global.config_files.begin(), global.config_files.end());
+  const auto files = knownFiles(named);
+  if (!options.picture.empty() && std::filesystem::path(options.picture).extension() != ".png")
+    throw InputError("--picture", "'" + options.picture + "' does not end with .png");
   if (!options.picture.empty()) return drawWindow(global, options, files);
   return openWindow(global, options, files);
 }
