@@ -283,6 +283,18 @@ TEST_F(InspectorViewTest, ADoubleClickLooksAtThePoint) {
   EXPECT_NEAR(after.distance(), before.distance(), 1e-6);
 }
 
+TEST_F(InspectorViewTest, ThePictureOfAViewIsNeverThatOfAnotherStep) {
+  InspectorDriver driver;
+  driver.open(run());
+  ASSERT_TRUE(driver.ui.has("view/inset"));
+  driver.ui.press({Key::Right});
+  while (driver.model().recorded().record->step == 1) driver.ui.frame();
+  const std::string ours = "view " + std::to_string(*driver.model().explainedView()) + ": predicted";
+  EXPECT_TRUE(!driver.ui.has("view/inset") || driver.ui.words().find(ours) != std::string::npos);
+  driver.ui.settle();
+  EXPECT_TRUE(driver.ui.has("view/inset"));
+}
+
 TEST_F(InspectorViewTest, WhatLiesUnderAPictureIsNotUnderTheMouse) {
   InspectorDriver driver;
   driver.open(run());

@@ -131,7 +131,8 @@ ViewInsets::~ViewInsets() = default;
 void ViewInsets::State::drawView(PanelContext& context, Viewport& viewport, Column& column,
                                  double pixel_scale, std::uint64_t revision) {
   // A picture of another step would be taken for one of this.
-  if (std::exchange(of_step, context.model.revision()) != of_step) view.filled = false;
+  const std::uint64_t before = std::exchange(of_step, context.model.revision());
+  if (before != of_step) view.filled = false;
   const auto id = context.model.explainedView();
   if (!context.preferences.show_inset || !id) return;
   const SceneFrame frame = context.model.shown().frame();
