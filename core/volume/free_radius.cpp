@@ -23,7 +23,7 @@ constexpr int kTile = 64;  // voxels in y and z
 using Word = std::uint64_t;
 constexpr Word kAllFree = ~Word{0};
 
-/// Free voxels of a box of rows as bits; everything outside the grid is free.
+/// Free voxels of a box of rows as bits; what the last word has beyond the grid is free.
 class BitBox {
  public:
   BitBox(const Eigen::Vector3i& grid, const std::uint8_t* states, const Eigen::Vector3i& begin,
@@ -31,8 +31,8 @@ class BitBox {
       : begin_(begin), size_(end - begin), words_(size_.x() / kWord) {
     bits_.assign(static_cast<std::size_t>(words_) * size_.y() * size_.z(), kAllFree);
     spare_ = bits_;
-    for (int z = std::max(begin.z(), 0); z < std::min(end.z(), grid.z()); ++z)
-      for (int y = std::max(begin.y(), 0); y < std::min(end.y(), grid.y()); ++y)
+    for (int z = begin.z(); z < end.z(); ++z)
+      for (int y = begin.y(); y < end.y(); ++y)
         load(states + (static_cast<std::size_t>(z) * grid.y() + y) * grid.x(), grid.x(), row(bits_, y, z));
   }
 
@@ -42,8 +42,9 @@ class BitBox {
   void erode() {
     const int rows = size_.y() * size_.z();
     for (int r = 0; r < rows; ++r) erodeRow(bits_.data() + static_cast<std::size_t>(r) * words_);
-    for (int z = 0; z < size_.z(); ++z) erodeAcross(bits_, spare_, z * size_.y(), size_.y(), 1);
-    for (int y = 0; y < size_.y(); ++y) erodeAcross(spare_, bits_, y, size_.z(), size_.y());
+    const std::size_t slice = static_cast<std::size_t>(size_.y()) * words_;
+    for (int z = 0; z < size_.z(); ++z) erodeAcross(bits_.data(), spare_.data(), z * slice, slice, words_);
+    erodeAcross(spare_.data(), bits_.data(), 0, bits_.size(), slice);
   }
 
  private:
@@ -55,7 +56,7 @@ class BitBox {
   void load(const std::uint8_t* states, int count, Word* out) const {
     static_assert(static_cast<int>(VoxelState::Unknown) == 0 && static_cast<int>(VoxelState::Free) == 1 &&
                   static_cast<int>(VoxelState::Occupied) == 2);  // bit 0 of a state says free
-    const int first = std::max(begin_.x(), 0), last = std::min(begin_.x() + size_.x(), count);
+    const int first = begin_.x(), last = std::min(begin_.x() + size_.x(), count);
     int x = first;
     for (; x < last && (x - begin_.x()) % 8 != 0; ++x) setBit(out, x, states[x]);
     for (; x + 8 <= last; x += 8) {
@@ -81,16 +82,18 @@ class BitBox {
     }
   }
 
-  void erodeAcross(const std::vector<Word>& from, std::vector<Word>& to, int first, int count,
-                   int stride) const {
-    for (int r = 0; r < count; ++r) {
-      const Word* here = from.data() + static_cast<std::size_t>(first + r * stride) * words_;
-      const std::ptrdiff_t step = static_cast<std::ptrdiff_t>(stride) * words_;
-      const Word* low = r > 0 ? here - step : here;
-      const Word* high = r + 1 < count ? here + step : here;
-      Word* out = to.data() + (here - from.data());
-      for (int i = 0; i < words_; ++i) out[i] = low[i] & here[i] & high[i];
+  /// `count` words from `first` on, each with those `step` before and behind it among them.
+  static void erodeAcross(const Word* from, Word* to, std::size_t first, std::size_t count,
+                          std::size_t step) {
+    from += first;
+    to += first;
+    if (count <= step) {  // one row alone
+      std::copy(from, from + count, to);
+      return;
     }
+    for (std::size_t i = 0; i < step; ++i) to[i] = from[i] & from[i + step];
+    for (std::size_t i = step; i < count - step; ++i) to[i] = from[i - step] & from[i] & from[i + step];
+    for (std::size_t i = count - step; i < count; ++i) to[i] = from[i - step] & from[i];
   }
 
   Eigen::Vector3i begin_, size_;
@@ -154,10 +157,15 @@ bool influencedBox(const BrickLayout& bricks, std::span<const std::uint8_t> flag
 void rebuildFreeRadius(const Eigen::Vector3i& grid, const std::uint8_t* states, const Eigen::Vector3i& begin,
                        const Eigen::Vector3i& end, std::uint8_t* radius) {
   const int first_word = begin.x() / kWord, last_word = (end.x() + kWord - 1) / kWord;
-  const int words = last_word - first_word;
-  const Eigen::Vector3i low((first_word - 1) * kWord, begin.y() - kReach, begin.z() - kReach);
-  const Eigen::Vector3i high((last_word + 1) * kWord, end.y() + kReach, end.z() + kReach);
+  const int words = last_word - first_word, grid_words = (grid.x() + kWord - 1) / kWord;
+  // Nothing comes from beyond the grid, which is free.
+  const int low_word = std::max(first_word - 1, 0), high_word = std::min(last_word + 1, grid_words);
+  const Eigen::Vector3i low(low_word * kWord, std::max(begin.y() - kReach, 0),
+                            std::max(begin.z() - kReach, 0));
+  const Eigen::Vector3i high(high_word * kWord, std::min(end.y() + kReach, grid.y()),
+                             std::min(end.z() + kReach, grid.z()));
   BitBox box(grid, states, low, high);
+  const int before = first_word - low_word;
   const int rows = end.y() - begin.y();
   std::vector<Count> count(static_cast<std::size_t>(words) * rows * (end.z() - begin.z()), Count{});
   for (int r = 0; r <= kReach; ++r) {
@@ -165,7 +173,7 @@ void rebuildFreeRadius(const Eigen::Vector3i& grid, const std::uint8_t* states, 
     Count* c = count.data();
     for (int z = begin.z(); z < end.z(); ++z)
       for (int y = begin.y(); y < end.y(); ++y)
-        for (int w = 0; w < words; ++w) increment(*c++, box.row(y, z)[w + 1]);
+        for (int w = 0; w < words; ++w) increment(*c++, box.row(y, z)[w + before]);
   }
   const Count* c = count.data();
   for (int z = begin.z(); z < end.z(); ++z)
