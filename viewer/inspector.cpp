@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <functional>
-#include <sstream>
 #include <utility>
 
-#include "io/text_file.h"
 #include "viewer/inspector_commands.h"
 #include "viewer/inspector_documents.h"
+#include "viewer/inspector_output.h"
 #include "viewer/panels/dialogs.h"
 #include "viewer/panels/file_dialog.h"
 #include "viewer/panels/panel.h"
@@ -41,7 +40,6 @@ struct Inspector::State {
   std::function<void(const std::filesystem::path&)> after_dialog;  ///< what the chosen file is for
   bool close = false;
   bool walks_panels = false;
-  bool layers_wanted = true;  ///< nothing was shown so far
   Documents documents;
   /// Changes the documents at the next frame: a command must not take the ground from under itself.
   std::function<void()> at_next_frame;
@@ -60,9 +58,7 @@ struct Inspector::State {
   void viewWindow(Document& d, double left, double right, const WindowLayout& l, double pixel_scale);
   void viewTitle(Document& d, double left, double top);
   void dialogs(PanelContext& context, const WindowLayout& l);
-  void followModel(Document& d);
   void screenshot();
-  void writeConfig(const std::filesystem::path& file);
 };
 
 void Inspector::State::applyWish() {
@@ -79,6 +75,15 @@ void Inspector::State::swapDocuments() {
   documents.swap();
 }
 
+void Inspector::State::screenshot() {
+  if (!ports.picture) return;
+  ViewSettings settings = preferences.view;
+  settings.camera.eye = document().scene.eye();
+  savePicture(document().model, [&](const SceneFrame& frame, const std::string& what_if) {
+    return ports.picture(frame, settings, what_if, gl, 1280, 800);
+  });
+}
+
 void Inspector::State::addFileActions(WindowActions& a) {
   const auto choose = [this](FileDialog::Mode mode, const char* name, auto then) {
     after_dialog = std::move(then);
@@ -91,7 +96,8 @@ void Inspector::State::addFileActions(WindowActions& a) {
     choose(FileDialog::Mode::Open, "", [this](const auto& file) { documents.openBeside(file); });
   };
   a.write_config = [this, choose] {
-    choose(FileDialog::Mode::Save, "config.toml", [this](const auto& file) { writeConfig(file); });
+    choose(FileDialog::Mode::Save, "config.toml",
+           [this](const auto& file) { saveConfig(document().model, file); });
   };
   a.close_beside = [this] { at_next_frame = [this] { documents.closeOther(); }; };
   a.has_beside = [this] { return documents.other() != nullptr; };
@@ -238,83 +244,6 @@ void Inspector::State::dialogs(PanelContext& context, const WindowLayout& l) {
   if (const auto file = dialog.draw(widgets)) after_dialog(*file);
 }
 
-/// A stage that is gone to, by hand or by playing, brings its layers; so do a recipe and the first file.
-void Inspector::State::followModel(Document& d) {
-  InspectorModel& model = d.model;
-  if (const auto recipe = model.takeRecipe()) {
-    preferences.view = *recipe;
-    d.eye_wanted = true;
-  }
-  if (model.file() != d.file_before) {
-    // The remembered eye is that of the last file.
-    const bool as_last = d.file_before.empty() && !preferences.recent_files.empty() &&
-                         preferences.recent_files.front().path == std::filesystem::absolute(model.file());
-    d.eye_wanted |= &d == &document() && !as_last;
-    const bool first_file = d.file_before.empty() && &d == &document();
-    if (first_file && !as_last && !preferences.recent_files.empty())
-      preferences.view.layers = {};  // the remembered ones are those of another file
-    d.view.forgetMeasured();
-    d.file_before = model.file();
-    d.place_before = model.place();
-    preferences.addRecent(model.file());
-  }
-  const bool is_active = &d == &document();
-  if (!is_active) {  // who looks at one file is told of both
-    for (const Notice& notice : model.notices())
-      document().model.say(notice.level, model.file().filename().string() + ": " + notice.text);
-    model.dismissNotices();
-  }
-  if (model.recorded().empty()) return;
-  LayerSet& shown = preferences.view.layers;
-  // The same stage of another planner, or of the closing scan, has other layers.
-  const bool other_stage = model.place().stage != d.place_before.stage || shown == d.stage_layers_before;
-  const bool first = std::exchange(layers_wanted, false) && shown == LayerSet();
-  if (is_active && (first || other_stage)) shown = d.stageLayers();
-  d.place_before = model.place();
-  d.stage_layers_before = d.stageLayers();
-}
-
-/// What differs from the run, for a caption; empty if nothing does.
-std::string whatIfText(const WhatIf& what_if) {
-  if (!what_if.edits().anyChanged()) return "";
-  std::istringstream lines(what_if.edits().toml());
-  std::string text, group, line;
-  while (std::getline(lines, line)) {
-    if (line.starts_with('[')) group = line.substr(1, line.find(']') - 1) + ".";
-    if (line.find(" = ") != std::string::npos)
-      text += (text.empty() ? "" : ", ") + group + line.substr(0, line.find("  #"));
-  }
-  return text;
-}
-
-void Inspector::State::screenshot() {
-  InspectorModel& model = document().model;
-  const StepData& shown = model.shown();
-  if (shown.empty() || !ports.picture) return;
-  const std::string stem =
-      model.file().stem().string() + "-step" + std::to_string(shown.record->step) + "-view";
-  try {
-    std::filesystem::path file = stem + ".png";
-    for (int n = 2; std::filesystem::exists(file); ++n) file = stem + "-" + std::to_string(n) + ".png";
-    ViewSettings settings = preferences.view;
-    settings.camera.eye = document().scene.eye();
-    writePng(ports.picture(shown.frame(), settings, whatIfText(model.whatIf()), gl, 1280, 800), file);
-    model.say(Notice::Level::Info, "picture saved as " + std::filesystem::absolute(file).string());
-  } catch (const std::exception& e) {
-    model.say(Notice::Level::Error, e.what());
-  }
-}
-
-void Inspector::State::writeConfig(const std::filesystem::path& file) {
-  InspectorModel& model = document().model;
-  try {
-    saveFile(file, model.whatIf().edits().toml());
-    model.say(Notice::Level::Info, "parameters written to " + file.string());
-  } catch (const std::exception& e) {
-    model.say(Notice::Level::Error, e.what());
-  }
-}
-
 Inspector::Inspector(GlContext& context, InspectorPorts ports, Preferences preferences)
     : state_(std::make_unique<State>(context, std::move(ports), std::move(preferences))) {}
 
@@ -329,7 +258,7 @@ bool Inspector::update(double elapsed_s) {
   bool changed = false;
   for (const auto& d : s.documents.all()) {
     changed |= d->model.update(elapsed_s);
-    s.followModel(*d);
+    s.documents.take(*d, s.preferences);
     const auto due_s = d->view.nextRender_s();
     changed |= due_s && *due_s <= 0.0;
   }

@@ -1,8 +1,10 @@
 #include "viewer/inspector_documents.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "viewer/file_kind.h"
+#include "viewer/preferences.h"
 
 namespace vantage {
 namespace {
@@ -72,6 +74,48 @@ ViewSettings Documents::viewOf(const Document& document, const ViewSettings& kep
   ViewSettings view = kept;
   if (&document != &active() && kept.layers == active().stageLayers()) view.layers = document.stageLayers();
   return view;
+}
+
+void Documents::take(Document& document, Preferences& preferences) {
+  InspectorModel& model = document.model;
+  if (const auto recipe = model.takeRecipe()) {
+    preferences.view = *recipe;
+    document.eye_wanted = true;
+  }
+  if (model.file() != document.file_before) takeFile(document, preferences);
+  if (&document != &active()) {  // who looks at one file is told of both
+    for (const Notice& notice : model.notices())
+      active().model.say(notice.level, model.file().filename().string() + ": " + notice.text);
+    model.dismissNotices();
+  }
+  if (!model.recorded().empty()) takeStage(document, preferences.view.layers);
+}
+
+void Documents::takeFile(Document& document, Preferences& preferences) {
+  const std::filesystem::path& file = document.model.file();
+  const auto& recent = preferences.recent_files;
+  const bool first = document.file_before.empty();
+  // What is remembered of eye and layers is that of the last file.
+  const bool as_last = first && !recent.empty() && recent.front().path == std::filesystem::absolute(file);
+  if (&document == &active()) {
+    document.eye_wanted |= !as_last;
+    if (first && !as_last && !recent.empty()) preferences.view.layers = {};
+  }
+  document.view.forgetMeasured();
+  document.file_before = file;
+  document.place_before = document.model.place();
+  preferences.addRecent(file);
+}
+
+void Documents::takeStage(Document& document, LayerSet& layers) {
+  const TimelinePlace place = document.model.place();
+  // The same stage of another planner, or of the closing scan, has other layers.
+  const bool other_stage =
+      place.stage != document.place_before.stage || layers == document.stage_layers_before;
+  const bool first = std::exchange(layers_wanted_, false) && layers == LayerSet();
+  if (&document == &active() && (first || other_stage)) layers = document.stageLayers();
+  document.place_before = place;
+  document.stage_layers_before = document.stageLayers();
 }
 
 void Documents::linkEyes(bool other_leads) {

@@ -32,6 +32,8 @@ struct Document {
   const LayerSet& stageLayers() const { return model.stages()[model.place().stage].layers; }
 };
 
+struct Preferences;
+
 /// One file, or two side by side: looked at from the same place, at the same step and stage as far as both
 /// have them. One of them is active: panels and commands are about it.
 class Documents {
@@ -57,6 +59,10 @@ class Documents {
   /// What is drawn of a document: the view that is kept, with the layers of its own planner where the active
   /// one shows a stage.
   ViewSettings viewOf(const Document& document, const ViewSettings& kept) const;
+  /// Takes over what became of a document's model since it was last asked: a file or a recipe that was
+  /// opened, the stage that the timeline went to and brings its layers. Notices of the other one go to the
+  /// active one.
+  void take(Document& document, Preferences& preferences);
   /// After the active eye or, if the other view is under the mouse, that one was moved, the other one
   /// follows.
   void linkEyes(bool other_leads);
@@ -67,6 +73,10 @@ class Documents {
   std::function<std::unique_ptr<Document>(std::string)> make_;
   std::vector<std::unique_ptr<Document>> all_;
   std::size_t active_ = 0;
+  bool layers_wanted_ = true;  ///< nothing was shown so far
+
+  void takeFile(Document& document, Preferences& preferences);
+  void takeStage(Document& document, LayerSet& layers);
 };
 
 }  // namespace vantage

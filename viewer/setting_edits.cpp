@@ -185,6 +185,14 @@ std::string SettingEdits::toml() const {
   return text.empty() ? "# no parameter differs from the run's\n" : text;
 }
 
+std::string SettingEdits::summary() const {
+  std::string text;
+  for (const config::Field& field : config::fields())
+    if (changed(field.key))
+      text += (text.empty() ? "" : ", ") + field.key + " = " + config::toToml(value(field.key), field.kind);
+  return text;
+}
+
 std::vector<std::string> SettingEdits::load(const std::string& toml, const std::string& origin,
                                             PlannerKind planner) {
   Settings set = wanted_, tried = wanted_;

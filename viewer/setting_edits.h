@@ -42,6 +42,8 @@ class SettingEdits {
 
   /// The changed keys as a configuration file that applyToml() reads; a comment alone if there are none.
   std::string toml() const;
+  /// The changed keys and their values in one line, "group.key = value, ..."; empty if there are none.
+  std::string summary() const;
   /// Takes over what a configuration file sets of the planner's parameters (see parametersOf()), as one
   /// change. Returns the other keys that it sets differently from the run: planning again knows nothing of
   /// them. \throws InputError, std::invalid_argument for values that do not fit together; nothing changes

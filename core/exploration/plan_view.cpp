@@ -142,9 +142,11 @@ void planView(StepRecord& record, const PlanViewInput& input, const ReachPose& r
     publish(stage);
     control.check();
   };
+  int started = 0;
   const auto start = [&](Stage stage) {
-    if (todo.has(stage)) control.report(toString(stage), 0, 1);
-    return todo.has(stage);
+    if (!todo.has(stage)) return false;
+    control.report(toString(stage), started++, todo.count());
+    return true;
   };
 
   if (start(Stage::Contours)) {
@@ -189,7 +191,7 @@ void planUtility(StepRecord& record, const PlanUtilityInput& input, const ReachP
   const auto recorded = std::exchange(record.utilities, nullptr);
   std::shared_ptr<const std::vector<ViewCandidate>> candidates;
   if (todo.has(Stage::Generation)) {
-    control.report(toString(Stage::Generation), 0, 1);
+    control.report(toString(Stage::Generation), 0, todo.count());
     candidates = timed(t.generation, [&] { return generateCandidates(input); });
     publish(Stage::Generation);
     control.check();

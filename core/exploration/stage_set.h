@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <optional>
 
@@ -20,6 +21,7 @@ class StageSet {
   void add(Stage stage) { bits_ |= bit(stage); }
   bool has(Stage stage) const { return (bits_ & bit(stage)) != 0; }
   bool empty() const { return bits_ == 0; }
+  int count() const { return std::popcount(bits_); }
   bool operator==(const StageSet&) const = default;
 
   /// The earliest one, empty if there is none.

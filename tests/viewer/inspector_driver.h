@@ -37,6 +37,12 @@ struct InspectorDriver {
     inspector.open({file});
     ui.settle();
   }
+  /// Types a parameter's value, in the unit that is shown, and waits for what follows from it.
+  void tryValue(const std::string& key, const std::string& text) {
+    ui.click("tab/What if");
+    ui.enter("what-if/" + key + "/text", text);
+    ui.settle();
+  }
   std::string notices() {
     std::string text;
     for (const Notice& notice : model().notices()) text += notice.text + "\n";

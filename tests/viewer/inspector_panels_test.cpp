@@ -69,9 +69,7 @@ TEST_F(InspectorPanelsTest, TheTableFollowsTheSelectedViewWhenItsRankChanges) {
   ASSERT_GT(late.rank.value_or(0), 20u);
   driver.model().selected_view = late.id;
   driver.ui.settle();
-  driver.ui.click("tab/What if");
-  driver.ui.enter("what-if/saliency.isolation_distance_m/text", "15");
-  driver.ui.settle();
+  driver.tryValue("saliency.isolation_distance_m", "15");
   const std::vector<CandidateRow> rows = rowsOf(driver);
   const auto now =
       std::ranges::find_if(rows, [&](const CandidateRow& r) { return !r.pending() && r.id == late.id; });
@@ -119,9 +117,7 @@ TEST_F(InspectorPanelsTest, ViewsThatCannotBeTakenAreLeftOutOnRequest) {
 TEST_F(InspectorPanelsTest, NoColumnThatMattersIsCutAtTheDefaultSize) {
   InspectorDriver driver;
   driver.open(run());
-  driver.ui.click("tab/What if");
-  driver.ui.enter("what-if/saliency.isolation_distance_m/text", "15");
-  driver.ui.settle();
+  driver.tryValue("saliency.isolation_distance_m", "15");
   const Widgets& widgets = driver.inspector.widgets();
   const std::uint32_t chosen = driver.model().shown().record->chosen()->id;
   ASSERT_TRUE(widgets.find(rowName(chosen)));

@@ -65,6 +65,24 @@ TEST_F(InspectorRunsTest, WhoLooksAtAnEarlierStepIsLeftThereWhileTheRunGrows) {
   });
 }
 
+TEST_F(InspectorRunsTest, ARunThatIsDeletedWhileItIsWrittenIsTold) {
+  const std::string file = *folder_ / "deleted.vantage", copy = *folder_ / "kept.vantage";
+  testing::recordRun(testing::ballScene(), {"exploration.steps=2"}, file, [&](const StepRecord& record) {
+    if (record.step != 1) return;
+    InspectorDriver driver;
+    driver.open(file);
+    EXPECT_THAT(driver.ui.words(), HasSubstr("the run is being written"));
+    std::filesystem::rename(file, copy);
+    for (int i = 0; i < 100 && driver.notices().empty(); ++i) {
+      driver.ui.frame(0.25);
+      driver.ui.settle();
+    }
+    EXPECT_THAT(driver.notices(), HasSubstr("deleted.vantage is gone"));
+    EXPECT_EQ(driver.model().shown().record->step, 1) << "what is shown stays";
+    std::filesystem::rename(copy, file);
+  });
+}
+
 TEST_F(InspectorRunsTest, ParametersOfTheHierarchicalPlannerReRankItsViews) {
   const std::string file = *folder_ / "hierarchical.vantage";
   testing::recordRun(testing::ballScene(), {"exploration.steps=1", "exploration.planner=hierarchical"}, file);

@@ -11,6 +11,7 @@ namespace vantage {
 namespace {
 
 using ::testing::AnyOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using testing::InspectorDriver;
 
@@ -137,6 +138,21 @@ TEST_F(InspectorWhatIfTest, SegmentationRunsAgainInTheBackground) {
       << "contours do not depend on segments and are kept";
 }
 
+TEST_F(InspectorWhatIfTest, TheStatusBarTellsHowFarARerunHasCome) {
+  InspectorDriver driver;
+  driver.open(run());
+  EXPECT_THAT(driver.ui.words(), HasSubstr("ready"));
+  ASSERT_TRUE(driver.whatIf().setText("segmentation.seed_m", "60"));
+  std::string told;
+  while (driver.whatIf().state() == WhatIfState::Rerunning) {
+    driver.ui.frame();
+    told += driver.ui.words();
+  }
+  EXPECT_THAT(told, ContainsRegex("(segmentation|saliency|generation) [0-9]+ %")) << "whichever a frame met";
+  driver.ui.settle();
+  EXPECT_THAT(driver.ui.words(), HasSubstr("ready"));
+}
+
 TEST_F(InspectorWhatIfTest, ARerunCanBeCancelled) {
   InspectorDriver driver;
   driver.open(run());
@@ -154,9 +170,7 @@ TEST_F(InspectorWhatIfTest, ARerunCanBeCancelled) {
 TEST_F(InspectorWhatIfTest, ParametersStayFromStepToStep) {
   InspectorDriver driver;
   driver.open(run());
-  driver.ui.click("tab/What if");
-  driver.ui.enter("what-if/gain.threshold/text", "100000");
-  driver.ui.settle();
+  driver.tryValue("gain.threshold", "100000");
   EXPECT_FALSE(driver.model().shown().record->hasView());
   driver.ui.press({Key::Right});
   driver.ui.settle();
@@ -193,9 +207,7 @@ TEST_F(InspectorWhatIfTest, ParametersThatAreOpenedWithARunWaitForIt) {
 TEST_F(InspectorWhatIfTest, APictureOfOtherParametersSaysSo) {
   InspectorDriver driver;
   driver.open(run());
-  driver.ui.click("tab/What if");
-  driver.ui.enter("what-if/saliency.isolation_distance_m/text", "31");
-  driver.ui.settle();
+  driver.tryValue("saliency.isolation_distance_m", "31");
   const std::filesystem::path before = std::filesystem::current_path();
   std::filesystem::current_path(folder_->path());
   driver.ui.click("status/save picture");

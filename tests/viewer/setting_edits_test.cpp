@@ -118,6 +118,14 @@ TEST(SettingEdits, TomlHoldsWhatChangedAndReadsBackToIt) {
   EXPECT_EQ(other.toml(), edits.toml());
 }
 
+TEST(SettingEdits, TheSummaryNamesWhatChangedInOneLine) {
+  SettingEdits edits = fresh();
+  EXPECT_EQ(edits.summary(), "");
+  edits.set("gain.outside", std::string("transparent"));
+  edits.set(kB, 0.0125);
+  EXPECT_EQ(edits.summary(), kB + " = 0.0125, gain.outside = \"transparent\"");
+}
+
 TEST(SettingEdits, AFileGivesTheParametersOfThePlannerAloneAndTheOthersAreNamed) {
   SettingEdits edits = fresh();
   const std::string file =

@@ -227,17 +227,18 @@ TEST(PlanView, CancelledKeepsEarlierProductsAndNoStaleOnes) {
   EXPECT_EQ(record.search, run().record.search);
 }
 
-TEST(PlanView, EveryStageReportsItsName) {
+TEST(PlanView, EveryStageReportsItsNameAndHowManyAreDone) {
   std::vector<std::string> phases;
   RunControl control;
-  control.progress = [&](std::string_view phase, std::uint64_t, std::uint64_t) {
-    if (phases.empty() || phases.back() != phase) phases.emplace_back(phase);
+  control.progress = [&](std::string_view phase, std::uint64_t done, std::uint64_t total) {
+    if (phase != "score poses")
+      phases.push_back(std::string(phase) + " " + std::to_string(done) + "/" + std::to_string(total));
   };
   StepRecord record;
   planView(
       record, inputFor(run().header.contour_config), lowViewsOnly, [](Stage) {}, control);
-  EXPECT_THAT(phases,
-              ElementsAre("contours", "surface", "segmentation", "saliency", "generation", "score poses"));
+  EXPECT_THAT(phases, ElementsAre("contours 0/6", "surface 1/6", "segmentation 2/6", "saliency 3/6",
+                                  "generation 4/6"));
 }
 
 TEST(PlanView, SaysWhichProductIsMissing) {
