@@ -24,8 +24,7 @@ Vector3d vector3(const std::vector<double>& v) {
   return {v[0], v[1], v[2]};
 }
 
-Solid::Color readColor(SceneTable& table, const std::string& fallback) {
-  const std::string text = table.text("color", fallback);
+Solid::Color readColor(const SceneTable& table, const std::string& text) {
   const bool hex =
       text.size() == 7 && text[0] == '#' &&
       std::all_of(text.begin() + 1, text.end(), [](unsigned char c) { return std::isxdigit(c); });
@@ -113,17 +112,22 @@ Solid slab(const Vector3d& low, const Vector3d& high, Solid::Color color) {
 
 }  // namespace
 
-Solid readSolid(SceneTable& table, const std::string& folder, std::size_t number) {
-  const std::string kind = table.text("kind");
-  const std::string object = table.text("object", kind + " " + std::to_string(number));
-  table.setWhat("solid " + std::to_string(number) + " (" + object + ")");
+void completeSolid(toml::table& solid, std::size_t number) {
+  const std::optional<std::string> kind = solid["kind"].value<std::string>();
+  if (kind) solid.insert("object", *kind + " " + std::to_string(number));
+  solid.insert("color", defaultColor(number - 1));
+}
+
+Solid readSolid(SceneTable& table, const std::string& folder) {
+  const std::string kind = table.text("kind"), object = table.text("object");
+  table.setWhat("solid (" + object + ")");
   const std::string role_name = table.text("role", "object");
   const std::optional<SolidRole> role = solidRole(role_name);
   if (!role) {
     const std::vector<std::string> roles = {"object", "table", "panel", "room", "other"};
     table.fail("role", "unknown role '" + role_name + "'" + suggestion(role_name, roles));
   }
-  const Solid::Color color = readColor(table, defaultColor(number - 1));
+  const Solid::Color color = readColor(table, table.text("color"));
   const Pose pose = readPose(table);
   ShapePtr shape;
   try {
@@ -149,7 +153,7 @@ std::vector<Solid> readRoom(SceneTable& table) {
   const double t = table.number("thickness_m", 0.1);
   if (t < 1e-4 || t > 10)
     table.fail("thickness_m", "'thickness_m' is " + std::to_string(t) + "; allowed: 0.0001 .. 10");
-  const Solid::Color color = readColor(table, "#d8d8d8");
+  const Solid::Color color = readColor(table, table.text("color", "#d8d8d8"));
   table.finish();
 
   const Vector3d wide_low = low - Vector3d(t, t, t), wide_high = high + Vector3d(t, t, t);

@@ -8,10 +8,15 @@
 
 namespace vantage {
 
-/// Solid of one [[solid]] table. \throws InputError. Internal to the scene reader.
-Solid readSolid(SceneTable& table, const std::string& folder, std::size_t number);
+// Internal to the scene reader.
 
-/// Six slabs of a [room] table. \throws InputError.
+/// Gives a [[solid]] table without `object` or `color` those that follow from its number.
+void completeSolid(toml::table& solid, std::size_t number);
+
+/// Solid of one [[solid]] table that is complete; mesh files are sought in `folder`. \throws InputError
+Solid readSolid(SceneTable& table, const std::string& folder);
+
+/// Six slabs of a [room] table. \throws InputError
 std::vector<Solid> readRoom(SceneTable& table);
 
 }  // namespace vantage

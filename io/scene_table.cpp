@@ -32,6 +32,10 @@ std::string tomlPlace(const std::string& source, const toml::source_region& regi
   return region.begin.line ? source + ":" + std::to_string(region.begin.line) : source;
 }
 
+std::string sourceOf(const toml::node& node) {
+  return node.source().path ? *node.source().path : std::string();
+}
+
 SceneTable::SceneTable(const toml::table& table, std::string source, std::string what)
     : table_(table), source_(std::move(source)), what_(std::move(what)) {}
 

@@ -52,4 +52,7 @@ class SceneTable {
 /// `SOURCE:LINE` of a place in a TOML document.
 std::string tomlPlace(const std::string& source, const toml::source_region& region);
 
+/// Name of the document that a node was parsed from; empty if it was made in memory.
+std::string sourceOf(const toml::node& node);
+
 }  // namespace vantage

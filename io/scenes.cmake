@@ -7,6 +7,7 @@ vantage_library(vantage_io_scene
   SOURCES
     embedded_assets.cpp
     mesh_file.cpp
+    scene_compose.cpp
     scene_file.cpp
     scene_rays.cpp
     scene_solids.cpp

@@ -95,7 +95,8 @@ std::set<std::string> settingSections() {
 
 /// By its keys; Unknown if none of them is of a scene, a recipe or a configuration.
 FileKind kindOfToml(const toml::table& table) {
-  if (table.contains("solid") || table.contains("room")) return FileKind::Scene;
+  for (const char* key : {"solid", "room", "base"})
+    if (table.contains(key)) return FileKind::Scene;
   if (table.contains("layers")) return FileKind::Recipe;
   if (table.empty()) return FileKind::Config;
   const std::set<std::string> sections = settingSections();

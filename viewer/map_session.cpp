@@ -120,7 +120,7 @@ StepData openOctree(const fs::path& file) {
 StepData openScene(const fs::path& file) {
   const SceneFile scene = loadScene(file.string());
   Settings settings;
-  applyToml(settings, scene.text, scene.source_path, sceneGeometryKeys());
+  applyScene(settings, scene);
   settings.validate();
   Draft draft = draftOf(scene.name, PlannerKind::Contour);
   draft.header.scene_toml = scene.text;

@@ -8,7 +8,7 @@ namespace vantage::benchmarks {
 
 TabletopMap::TabletopMap() {
   const SceneFile scene = loadScene("tabletop");
-  applyToml(settings, scene.text, scene.source_path, sceneGeometryKeys());
+  applyScene(settings, scene);
   const ExplorationConfig& config = settings.exploration;
   SimulatedDepthCamera camera(scene, {settings.camera, settings.sensor, config.seed});
   volume = TsdfVolume(config.volume);

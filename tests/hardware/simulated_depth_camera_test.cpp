@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 
 SceneFile sceneOf(const std::string& toml) {
-  return parseScene(toml, "test.toml", ".");
+  return parseScene(toml, "test.toml");
 }
 
 /// A wall at x = `distance` before a camera at the origin that looks along +x.

@@ -1,9 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <map>
-#include <set>
-
 #include "io/config_file.h"
 #include "io/scene_rays.h"
 #include "io/scene_truth.h"
@@ -20,28 +17,24 @@ std::vector<std::string> embeddedNames() {
   return names;
 }
 
-/// Vertices of an object and the smallest distance of each to the solids of other names.
-double smallestDistanceToOthers(const SceneFile& scene, const std::string& object) {
-  double smallest = 1e9;
-  for (const Solid& solid : scene.solids) {
-    if (solid.object() != object) continue;
-    for (const Eigen::Vector3f& v : solid.mesh().vertices)
-      for (const Solid& other : scene.solids)
-        if (other.object() != object) smallest = std::min(smallest, other.signedDistance(v.cast<double>()));
-  }
-  return smallest;
-}
-
 class Embedded : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(Embedded, ObjectsRestOnSomethingWithoutSinkingIn) {
+TEST_P(Embedded, ObjectsStandOnSomethingWithoutSinkingIn) {
   const SceneFile scene = loadScene(GetParam());
   const SceneTruth truth(scene);
   ASSERT_FALSE(truth.objectNames().empty());
   for (const std::string& name : truth.objectNames()) {
-    const double distance = smallestDistanceToOthers(scene, name);
-    EXPECT_LT(distance, 0.0005) << name << " floats";
-    EXPECT_GT(distance, -0.001) << name << " sinks into something";
+    const std::vector<Vector3d> points = test::surfaceSamples(scene, name);
+    ASSERT_GT(points.size(), 100u) << name;
+    double lowest = 1e9, smallest = 1e9, below = 1e9;
+    for (const Vector3d& p : points) lowest = std::min(lowest, p.z());
+    for (const Vector3d& p : points) {
+      const double distance = test::distanceToOthers(scene, name, p);
+      smallest = std::min(smallest, distance);
+      if (p.z() < lowest + 0.001) below = std::min(below, distance);
+    }
+    EXPECT_GT(smallest, -0.001) << name << " sinks into something";
+    EXPECT_LT(below, 0.001) << name << " floats";
   }
 }
 
@@ -61,7 +54,7 @@ TEST_P(Embedded, ObjectsKeepFiveCentimetresFromTheTableBorder) {
 TEST_P(Embedded, ConfigurationIsAcceptedAndValid) {
   const SceneFile scene = loadScene(GetParam());
   Settings settings;
-  applyToml(settings, scene.text, scene.source_path, sceneGeometryKeys());
+  applyScene(settings, scene);
   EXPECT_NO_THROW(settings.validate());
   const Vector3d rounding = Vector3d::Constant(1e-6);
   const Box workspace(settings.exploration.workspace.min() - rounding,
@@ -79,7 +72,15 @@ TEST_P(Embedded, ConfigurationIsAcceptedAndValid) {
   }
 }
 
+TEST_P(Embedded, TextDescribesTheSceneByItself) {
+  const SceneFile scene = loadScene(GetParam());
+  const SceneFile again = parseScene(scene.text, GetParam());
+  test::expectEqualSolids(again, scene);
+  EXPECT_EQ(test::configurationOf(again), test::configurationOf(scene));
+}
+
 TEST_P(Embedded, StandsInAClosedRoom) {
+  if (GetParam() == "b4_bar") GTEST_SKIP() << "its ground and wall have no end within the camera's range";
   const SceneFile scene = loadScene(GetParam());
   const SceneRays rays(sceneMesh(scene, true));
   std::vector<Eigen::Vector3f> directions;
@@ -103,36 +104,6 @@ TEST(EmbeddedScenes, AreDescribedInOneLine) {
     EXPECT_FALSE(scene.description.empty()) << scene.name;
     EXPECT_EQ(scene.description.find('\n'), std::string::npos);
   }
-}
-
-TEST(Tabletop, HasTheObjectsOfSceneS1) {
-  const SceneFile scene = loadScene("tabletop");
-  const SceneTruth truth(scene);
-  ASSERT_THAT(truth.objectNames(), ::testing::ElementsAre("box L", "jug A", "box R", "jug B", "ball"));
-  const std::vector<Box> boxes = truth.objectBoxes();
-  const double expected_z[5][2] = {{0, 0.14}, {0.14, 0.34}, {0, 0.10}, {0.10, 0.28}, {0, 0.16}};
-  for (std::size_t i = 0; i < 5; ++i) {
-    EXPECT_NEAR(boxes[i].min().z(), expected_z[i][0], 1e-6) << i;
-    EXPECT_NEAR(boxes[i].max().z(), expected_z[i][1], 1e-6) << i;
-  }
-  EXPECT_TRUE(boxes[0].sizes().isApprox(Vector3d(0.22, 0.16, 0.14), 1e-6));
-  EXPECT_TRUE(boxes[2].sizes().isApprox(Vector3d(0.24, 0.18, 0.10), 1e-6));
-  // The bodies reach radius 7 and 6 cm; the neck of jug A is 4.5 cm wide at most.
-  const auto radiusAt = [&](const std::string& name, double from, double to) {
-    double widest = 0.0;
-    for (const Solid& solid : scene.solids) {
-      if (solid.object() != name || (solid.bounds().sizes().x() < 0.08))
-        continue;  // the body, not the handle
-      for (const Eigen::Vector3f& v : solid.mesh().vertices) {
-        const Vector3d p = solid.pose().inverse() * v.cast<double>();
-        if (p.z() >= from && p.z() <= to) widest = std::max(widest, p.head<2>().norm());
-      }
-    }
-    return widest;
-  };
-  EXPECT_NEAR(radiusAt("jug A", 0, 0.2), 0.07, 0.001);
-  EXPECT_NEAR(radiusAt("jug A", 0.165, 0.2001), 0.045, 0.001);
-  EXPECT_NEAR(radiusAt("jug B", 0, 0.18), 0.06, 0.001);
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"[[solid]]\nkind='sphere'\nradius_m=1\ncolor='red'\n", "test.toml:4: ", "#rrggbb"},
         Broken{"[[solid]]\nkind='sphere'\nradius_m=1\nyaw_deg=1\nrpy_deg=[1,1,1]\n",
                "test.toml:4: ", "exclude"},
-        Broken{"[[solid]]\nkind='mesh'\nfile='missing.ply'\n", "./missing.ply: ", "no such mesh file"},
+        Broken{"[[solid]]\nkind='mesh'\nfile='missing.ply'\n", "missing.ply: ", "no such mesh file"},
         Broken{"[[solid]]\nkind='lathe'\nprofile_m=[[0.1,0],[0.2]]\n", "test.toml:3: ", "array of 2 numbers"},
         Broken{"solid = 3\n", "test.toml:1: ", "[[solid]]"},
         Broken{"room = 3\n", "test.toml:1: ", "must be a table"},
@@ -118,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(LoadScene, NamesTheNearestSceneOrTheMissingFile) {
   EXPECT_THAT(inputError([] { loadScene("tabeltop"); }), HasSubstr("did you mean 'tabletop'?"));
   EXPECT_THAT(inputError([] { loadScene("/nowhere/at/all.toml"); }), HasSubstr("no such file"));
-  EXPECT_THAT(inputError([] { loadScene("/"); }), HasSubstr("is no file"));
+  EXPECT_THAT(inputError([] { loadScene("/"); }), HasSubstr("is a folder"));
 }
 
 TEST(EmbeddedAssets, EqualTheirSourceFiles) {

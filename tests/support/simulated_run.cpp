@@ -10,7 +10,7 @@ namespace vantage::testing {
 
 Settings sceneSettings(const std::string& scene, const std::vector<std::string>& assignments) {
   Settings settings;
-  applyToml(settings, loadScene(scene).text, scene, sceneGeometryKeys());
+  applyScene(settings, loadScene(scene));
   for (const std::string& assignment : assignments) applyAssignment(settings, assignment);
   settings.validate();
   return settings;

@@ -69,6 +69,7 @@ TEST_F(FileKindTest, KnowsWhatTheProgramWritesWhateverItIsCalled) {
 TEST_F(FileKindTest, TellsTomlFilesApartByTheirKeys) {
   EXPECT_EQ(kindOf(write("a.toml", kScene)), FileKind::Scene);
   EXPECT_EQ(kindOf(write("b.toml", std::string("[gain]\nthreshold = 500\n") + kScene)), FileKind::Scene);
+  EXPECT_EQ(kindOf(write("based.toml", "base = \"tabletop\"\nwithout = [\"panel\"]\n")), FileKind::Scene);
   EXPECT_EQ(kindOf(write("c.toml", "layers = [\"surface\"]\n")), FileKind::Recipe);
   EXPECT_EQ(kindOf(write("d.toml", "[gain]\nthreshold = 500\n")), FileKind::Config);
   EXPECT_EQ(kindOf(write("e.toml", "[gain]\nthresold = 500\n")), FileKind::Config)

@@ -27,10 +27,6 @@ void applyCommandLine(Settings& settings, const GlobalOptions& global) {
   if (global.seed) applyAssignment(settings, fmt::format("exploration.seed={}", *global.seed), "--seed");
 }
 
-void applyScene(Settings& settings, const SceneFile& scene) {
-  applyToml(settings, scene.text, scene.source_path, sceneGeometryKeys());
-}
-
 /// Settings derived from the data set where it lies now, under what the user says.
 Settings layeredSettings(const GlobalOptions& global, const Dataset& dataset) {
   Settings settings = settingsForDataset(dataset);

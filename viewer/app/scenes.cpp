@@ -12,7 +12,7 @@ namespace {
 int listScenes(const GlobalOptions& global) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const EmbeddedScene& scene : embeddedScenes()) {
-    if (global.json != "-") fmt::print("{:<12} {}\n", scene.name, scene.description);
+    if (global.json != "-") fmt::print("{:<14} {}\n", scene.name, scene.description);
     list.push_back({{"name", scene.name}, {"description", scene.description}});
   }
   writeJson(global.json, list);

@@ -92,7 +92,7 @@ void prepare(Settings& settings, const ExperimentOptions& options, std::uint64_t
 
 Settings roomSettings(const SceneFile& scene, const ExperimentOptions& options, std::uint64_t seed) {
   Settings settings;
-  applyToml(settings, scene.text, scene.source_path, sceneGeometryKeys());
+  applyScene(settings, scene);
   settings.exploration.octree.known_scene = true;
   prepare(settings, options, seed);
   return settings;

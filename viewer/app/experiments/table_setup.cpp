@@ -18,7 +18,7 @@ Box objectBox(const SceneFile& scene) {
 
 Settings tableSettings(const SceneFile& scene, int steps, const std::function<void(Settings&)>& tune) {
   Settings settings;
-  applyToml(settings, scene.text, scene.source_path, sceneGeometryKeys());
+  applyScene(settings, scene);
   ExplorationConfig& exploration = settings.exploration;
   exploration.octree.object_box = exploration.workspace = objectBox(scene);
   exploration.octree.known_scene = true;
