@@ -25,6 +25,17 @@ vantage_embed_assets(vantage_io_scene
   scenes/a1_compact.toml
   scenes/a1_elongated.toml
   scenes/a3_room.toml
+  scenes/apart.toml
+  scenes/apart_open.toml
+  scenes/b3_planes.toml
+  scenes/b4_bar.toml
   scenes/box.toml
+  scenes/clutter.toml
+  scenes/clutter_open.toml
   scenes/room.toml
-  scenes/tabletop.toml)
+  scenes/row.toml
+  scenes/row_open.toml
+  scenes/tabletop.toml
+  scenes/tabletop_open.toml
+  scenes/tuning_a.toml
+  scenes/tuning_b.toml)

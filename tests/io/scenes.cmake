@@ -1,6 +1,7 @@
 vantage_test(io_scene_test
   scene_base_test.cpp
   scene_embedded_test.cpp
+  scene_experiments_test.cpp
   scene_file_test.cpp
   scene_mesh_test.cpp
   scene_solid_test.cpp
