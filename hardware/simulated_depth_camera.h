@@ -22,8 +22,9 @@ struct SimulatedCameraConfig {
 /// Depth camera in a scene file: one ray through the centre of every pixel. A pixel is invalid (NaN) where
 /// the ray leaves the scene, where the emitter, a point beside the camera, cannot see what the camera sees
 /// (D-B30), and where the measurement lies outside the range. Noise is Gaussian with a standard deviation of
-/// `noise_at_1m_m * z^2`. The same seed, index and pose give the same frame, bit for bit, for any thread
-/// count.
+/// `noise_at_1m_m * z^2`. With faults (hardware/sensor_faults.h) what the emitter does not light has a wrong
+/// depth instead of none, and pixels at depth steps mix both sides. The same seed, index and pose give the
+/// same frame, bit for bit, for any thread count.
 class SimulatedDepthCamera : public DepthCamera {
  public:
   /// Takes a copy of the scene's surfaces, room included. \throws std::invalid_argument as validate().

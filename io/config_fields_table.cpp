@@ -60,8 +60,40 @@ std::vector<Field> cameraFields() {
              0, 1, AT(sensor.noise_at_1m_m)),
       flag("camera.emitter_shadow", "simulated: pixels that the emitter does not light are invalid",
            AT(sensor.emitter_shadow)),
+      flag("camera.faults",
+           "simulated: wrong depth where the emitter does not light and veils at depth steps, as a Kinect V2",
+           AT(sensor.faults)),
       number("camera.emitter_offset_m", "simulated: emitter to the left of the camera, metres (D-B20)", -1, 1,
              AT(sensor.emitter_offset_m)),
+  };
+}
+
+/// Section 9. Off by default: the simulated sensor has no faults unless it is told to.
+std::vector<Field> filterFields() {
+  return {
+      flag("filter.bilateral", "smooth depth, steps are kept", AT(exploration.filter.bilateral)),
+      integer("filter.bilateral_diameter_px", "window of that, pixels", 1, 31,
+              AT(exploration.filter.bilateral_diameter_px)),
+      number("filter.bilateral_sigma_px", "weight by distance in the image, pixels", 0.1, 20,
+             AT(exploration.filter.bilateral_sigma_px)),
+      number("filter.bilateral_sigma_m", "weight by difference of depth, metres", 0.001, 1,
+             AT(exploration.filter.bilateral_sigma_m)),
+      flag("filter.shadow", "remove what the emitter may not light (Algorithm 2)",
+           AT(exploration.filter.shadow)),
+      number("filter.emitter_offset_m", "Delta, distance of camera and emitter, metres (section 10)", 0.001,
+             1, AT(exploration.filter.emitter_offset_m)),
+      choice<EmitterSide>("filter.emitter_side", "where the emitter stands, seen along the axis (D-B20)",
+                          {{"left", EmitterSide::Left}, {"right", EmitterSide::Right}},
+                          AT(exploration.filter.emitter_side)),
+      flag("filter.veil", "remove what is seen at a grazing angle (eq. 19)", AT(exploration.filter.veil)),
+      angle("filter.veil_angle_deg", "Theta_max of that, degrees (section 10)", 0.1, 85,
+            AT(exploration.filter.veil_angle_rad)),
+      flag("filter.edge_aware", "stand-in for the driver's filter: remove what hangs between two sides",
+           AT(exploration.filter.edge_aware)),
+      number("filter.edge_step_share", "smallest step of that, share of the depth", 0.001, 1,
+             AT(exploration.filter.edge_step_share)),
+      number("filter.edge_side_share", "what is nearer to a side than this share of the step belongs to it",
+             0, 0.5, AT(exploration.filter.edge_side_share)),
   };
 }
 
@@ -202,8 +234,8 @@ std::vector<Field> robotFields() {
 
 std::vector<Field> allFields() {
   std::vector<Field> all;
-  for (auto* part : {explorationFields, cameraFields, mapFields, plannerFields, gainFields, octreeFields,
-                     hierarchicalFields, robotFields})
+  for (auto* part : {explorationFields, cameraFields, filterFields, mapFields, plannerFields, gainFields,
+                     octreeFields, hierarchicalFields, robotFields})
     for (Field& field : part()) all.push_back(std::move(field));
   return all;
 }

@@ -164,8 +164,7 @@ void checkIndices(const StepRecord& r) {
   require(chosen.contour_point < points, "a chosen view without its contour point");
 }
 
-void checkDepth(const DepthFrame& frame) {
-  const DepthImage& d = frame.depth;
+void checkDepth(const DepthImage& d) {
   require(d.width >= 0 && d.height >= 0 &&
               static_cast<std::uint64_t>(d.width) * static_cast<std::uint64_t>(d.height) == d.depth_m.size(),
           "a depth image of another size than it says");
@@ -215,6 +214,7 @@ std::vector<StoredProduct> storeRecord(const StepRecord& record, int step) {
     if (product) all.push_back(storeValue(stageOf(stage), name, step, *product));
   };
   add("sense", "depth", record.depth);
+  add("sense", "filtered", record.filtered);
   const auto addBricks = [&](const auto& bricks) {
     if (!bricks) return;
     for (StoredProduct& chunk : storeBricks(stageOf("fuse"), step, *bricks)) all.push_back(std::move(chunk));
@@ -257,6 +257,7 @@ StepRecord openRecord(int step, bool closing, const FetchProduct& fetch, RunDeta
         openValue<Product>(fetch(closing ? kClosingStage : stage, name), step));
   };
   take("sense", "depth", record.depth);
+  take("sense", "filtered", record.filtered);
   take("contours", "contours", record.contours);
   take("surface", "surface", record.surface);
   take("segmentation", "labels", record.labels);
@@ -266,7 +267,11 @@ StepRecord openRecord(int step, bool closing, const FetchProduct& fetch, RunDeta
   take("evaluation", "search", record.search);
   take("evaluation", "utilities", record.utilities);
   take("fuse", "box", record.box);
-  if (record.depth) checkDepth(*record.depth);
+  if (record.depth) checkDepth(record.depth->depth);
+  if (record.filtered) {
+    checkDepth(record.filtered->depth);
+    require(record.filtered->mask.size() == record.filtered->depth.depth_m.size(), "a mask of another size");
+  }
   checkIndices(record);
 
   const auto takeBricks = [&]<class Brick>(std::shared_ptr<const std::vector<Brick>>& bricks) {

@@ -134,6 +134,9 @@ void fields(auto& a, Like<ScanPose> auto& v) {
 void fields(auto& a, Like<DepthFrame> auto& v) {
   a(v.depth, v.T_world_camera, v.frame);
 }
+void fields(auto& a, Like<FilteredDepth> auto& v) {
+  a(v.depth, v.mask);
+}
 void fields(auto& a, Like<MapMetrics> auto& v) {
   a(v.unknown_voxels, v.unknown_near_objects, v.unknown_in_boxes, v.coverage);
 }

@@ -22,6 +22,8 @@ std::vector<Recipe> makeRecipes() {
   std::vector<Recipe> all;
   all.push_back({"scene", "Scene and sensor", "the true scene, the sensor and its last depth image",
                  viewOf({Layer::Truth, Layer::Sensor, Layer::DepthImage}), scanFigures});
+  all.push_back({"filters", "Depth filters", "what the depth filters removed of the last image",
+                 viewOf({Layer::Truth, Layer::Sensor, Layer::FilteredDepth}), filterFigures});
   all.push_back({"states", "Voxel states", "what is occupied and what is still unknown",
                  viewOf({Layer::Occupied, Layer::Unknown}), stateFigures});
   all.push_back({"contours", "Contours", "contour voxels and contour points with their normals",
@@ -64,9 +66,10 @@ std::vector<Recipe> makeRecipes() {
 }  // namespace
 
 bool Recipe::planning() const {
-  static constexpr Layer kOfTheMap[] = {Layer::Workspace, Layer::ObjectBox, Layer::Axes,   Layer::Truth,
-                                        Layer::Occupied,  Layer::Unknown,   Layer::Free,   Layer::Slices,
-                                        Layer::Octree,    Layer::Surface,   Layer::Sensor, Layer::DepthImage};
+  static constexpr Layer kOfTheMap[] = {
+      Layer::Workspace, Layer::ObjectBox,  Layer::Axes,         Layer::Truth,  Layer::Occupied,
+      Layer::Unknown,   Layer::Free,       Layer::Slices,       Layer::Octree, Layer::Surface,
+      Layer::Sensor,    Layer::DepthImage, Layer::FilteredDepth};
   LayerSet rest = view.layers;
   for (const Layer layer : kOfTheMap) rest.set(layer, false);
   return rest != LayerSet();

@@ -84,6 +84,17 @@ std::string scanFigures(const SceneFrame& frame, const LayerStyle&) {
   return text;
 }
 
+std::string filterFigures(const SceneFrame& frame, const LayerStyle&) {
+  if (!frame.record.filtered) return "No depth filter was switched on.";
+  const MaskCounts counts = countMask(frame.record.filtered->mask);
+  const std::uint64_t valid = std::max<std::uint64_t>(1, counts.kept + counts.removed());
+  const auto share = [&](std::uint64_t pixels) { return percent(static_cast<double>(pixels) / valid); };
+  std::string text = grouped(counts.removed()) + " of " + grouped(valid) + " measured pixels were removed (" +
+                     share(counts.removed()) + "): shadow " + grouped(counts.shadow + counts.both) +
+                     ", veil " + grouped(counts.veil + counts.both) + ", both " + grouped(counts.both);
+  return text + (counts.edge > 0 ? ", edges " + grouped(counts.edge) + "." : ".");
+}
+
 std::string stateFigures(const SceneFrame& frame, const LayerStyle&) {
   const Box& box = frame.header.workspace;
   const std::uint64_t unknown = frame.states.count(VoxelState::Unknown, box);

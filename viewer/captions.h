@@ -23,6 +23,7 @@ std::string volumeText(double cubic_metres);
 // makes no such product is told so. The style says which depth or view a picture is about.
 using Figures = std::string(const SceneFrame& frame, const LayerStyle& style);
 Figures scanFigures;     ///< where the scan was taken and what it returned
+Figures filterFigures;   ///< what the depth filters removed of the last image
 Figures stateFigures;    ///< how much is known
 Figures contourFigures;  ///< contours, points, poses
 Figures segmentFigures;  ///< segments in the order in which they are tried

@@ -314,7 +314,8 @@ PlannerKind InspectorModel::planner() const {
 const std::vector<StageView>& InspectorModel::stages() const {
   if (!isRun()) return stageViews(planner(), StepContent::File);
   const bool closing = !recorded_.empty() && recorded_.record->closing;
-  return stageViews(planner(), closing ? StepContent::Closing : StepContent::Planned);
+  const bool filtered = !recorded_.empty() && recorded_.record->filtered;
+  return stageViews(planner(), closing ? StepContent::Closing : StepContent::Planned, filtered);
 }
 
 std::optional<std::uint32_t> InspectorModel::explainedView() const {

@@ -72,6 +72,15 @@ Stages withOverview(Stages stages, const char* about, const LayerSet& layers) {
   return stages;
 }
 
+/// With the stage of the depth filters behind the scan.
+Stages withFilters(Stages stages) {
+  const auto fused = std::ranges::find(stages, "fused", &StageView::name);
+  stages.insert(fused,
+                {"filtered", "Filtered", "the last depth image: what the filters removed, and which of them",
+                 with({Layer::Truth, Layer::Sensor, Layer::FilteredDepth})});
+  return stages;
+}
+
 /// For each content.
 std::array<Stages, 3> stagesOf(Stages planned) {
   return {
@@ -82,11 +91,15 @@ std::array<Stages, 3> stagesOf(Stages planned) {
 
 }  // namespace
 
-const Stages& stageViews(PlannerKind planner, StepContent content) {
-  static const std::array<std::array<Stages, 3>, 3> all = {
-      stagesOf(contourStages(true)), stagesOf(contourStages(false)), stagesOf(octreeStages())};
+const Stages& stageViews(PlannerKind planner, StepContent content, bool filtered) {
+  const auto forAll = [](auto change) {
+    return std::array<std::array<Stages, 3>, 3>{stagesOf(change(contourStages(true))),
+                                                stagesOf(change(contourStages(false))),
+                                                stagesOf(change(octreeStages()))};
+  };
+  static const auto plain = forAll([](Stages stages) { return stages; }), with_filters = forAll(withFilters);
   const std::size_t kind = usesOctree(planner) ? 2 : planner == PlannerKind::Contour ? 0 : 1;
-  return all[kind][static_cast<std::size_t>(content)];
+  return (filtered ? with_filters : plain)[kind][static_cast<std::size_t>(content)];
 }
 
 int stageNamed(const Stages& stages, const std::string& name) {

@@ -24,8 +24,8 @@ enum class StepContent {
 };
 
 /// Stages of a step of a planner, in the order in which they are done; before them "overview", with which a
-/// step is shown until something is chosen. Which stages there are depends on the planner alone.
-const std::vector<StageView>& stageViews(PlannerKind planner, StepContent content);
+/// step is shown until something is chosen. \param filtered the step's depth images were filtered
+const std::vector<StageView>& stageViews(PlannerKind planner, StepContent content, bool filtered = false);
 
 /// Index of the stage of that name; 0, the overview, if there is none.
 int stageNamed(const std::vector<StageView>& stages, const std::string& name);

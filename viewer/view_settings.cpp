@@ -36,7 +36,8 @@ constexpr std::array<LayerWords, kLayerCount> kLayers = {{{"workspace", "workspa
                                                           {"chosen-view", "chosen view"},
                                                           {"path", "path"},
                                                           {"sensor", "sensor"},
-                                                          {"depth-image", "depth image"}}};
+                                                          {"depth-image", "depth image"},
+                                                          {"filtered-depth", "what the filters removed"}}};
 
 constexpr std::array<std::string_view, 4> kFactors = {"utility", "unknown", "occupied", "distance"};
 

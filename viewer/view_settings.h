@@ -38,11 +38,12 @@ enum class Layer : std::uint8_t {
   RefinedRays,    ///< their finer rays, in refined nodes
   RankedViews,    ///< frusta of the best views: of the searched segment, or by utility
   ChosenView,
-  Path,        ///< motion to the chosen view
-  Sensor,      ///< the sensor where the last scan was taken
-  DepthImage,  ///< last depth image, beside the scene
+  Path,           ///< motion to the chosen view
+  Sensor,         ///< the sensor where the last scan was taken
+  DepthImage,     ///< last depth image, beside the scene
+  FilteredDepth,  ///< what the filters removed of it, in the scene and beside it
 };
-inline constexpr int kLayerCount = 26;
+inline constexpr int kLayerCount = 27;
 
 /// Name of a layer in files and on the command line, e.g. "contour-points".
 std::string_view layerName(Layer layer);

@@ -52,6 +52,7 @@ void ExplorationConfig::validate() const {
     requireInRange("workspace.max_m", workspace.max()[a], workspace.min()[a], 1e6);
   }
   fusion.validate(volume.voxel_size_m);
+  filter.validate();
   scan.validate();
   requireInRange("exploration.steps", steps, 0, 100000);
 }

@@ -95,7 +95,9 @@ std::vector<Pose> Explorer::State::startPoses() const {
 bool Explorer::State::scanInto(StepRecord& record, const std::vector<Pose>& poses, const SensorBubble& bubble,
                                const RunControl& control) {
   double sense_s = 0.0, fuse_s = 0.0;
+  std::optional<double> filter_s;
   DepthFrame last;
+  FilteredDepth filtered;
   for (std::size_t p = 0; p < poses.size(); ++p) {
     control.check();
     control.report("sense", p, poses.size());
@@ -104,8 +106,14 @@ bool Explorer::State::scanInto(StepRecord& record, const std::vector<Pose>& pose
     sense_s += sensing.seconds();
     if (!frame) break;
     ++frames_taken;
+    if (config.filter.any()) {
+      const Stopwatch filtering;
+      filtered = filterDepth(frame->depth, camera.model(), config.filter);
+      filter_s = filter_s.value_or(0.0) + filtering.seconds();
+    }
     const Stopwatch fusing;
-    world.fuse(*frame, camera.model(), bubble);
+    world.fuse(config.filter.any() ? filtered.depth : frame->depth, frame->T_world_camera, camera.model(),
+               bubble);
     fuse_s += fusing.seconds();
     record.scan.push_back({frame->T_world_camera, frame->frame});
     last = std::move(*frame);
@@ -113,7 +121,9 @@ bool Explorer::State::scanInto(StepRecord& record, const std::vector<Pose>& pose
   if (record.scan.empty()) return false;
   robot.localise(last.T_world_camera);
   record.depth = share(std::move(last));
+  if (config.filter.any()) record.filtered = share(std::move(filtered));
   record.timings.sense = sense_s;
+  record.timings.filter = filter_s;
   publish(record, Stage::Sense);
 
   const Stopwatch updating;

@@ -9,6 +9,7 @@
 #include "core/exploration/ports.h"
 #include "core/exploration/step_record.h"
 #include "core/exploration/world_model.h"
+#include "core/perception/depth_filters.h"
 #include "core/run_control.h"
 
 namespace vantage {
@@ -34,6 +35,7 @@ struct ExplorationConfig {
   ContourPlannerConfig contour;  ///< its segment_by_segment follows the planner of the step
   HierarchicalPlannerConfig hierarchical;
   OctreeMapConfig octree;
+  DepthFilterConfig filter;  ///< of every frame before it is fused
   FusionConfig fusion;
   ScanConfig scan;
   GridGeometry volume = {{-1.5, -1.0, -0.05}, 3.0 / 512.0, {512, 341, 200}};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/exploration/ports.h"
+#include "core/perception/depth_filters.h"
 #include "core/planners/contour_planner.h"
 #include "core/planners/hierarchical_planner.h"
 #include "core/volume/tsdf_volume.h"
@@ -74,6 +75,7 @@ struct StepRecord {
 
   std::vector<ScanPose> scan;
   std::shared_ptr<const DepthFrame> depth;                       ///< last frame of the scan
+  std::shared_ptr<const FilteredDepth> filtered;                 ///< its filtered image; null without filters
   std::shared_ptr<const std::vector<TsdfBrick>> changed_bricks;  ///< since the step before; ascending
   std::shared_ptr<const std::vector<OctreeBrick>> changed_octree_bricks;  ///< the same, of the octree
   MapMetrics metrics;

@@ -44,17 +44,17 @@ WorldModel::WorldModel(const WorldConfig& config) : config_(config) {
   }
 }
 
-void WorldModel::fuse(const DepthFrame& frame, const PinholeCamera& camera, const SensorBubble& bubble) {
-  const Eigen::Vector3d eye = frame.T_world_camera.translation();
+void WorldModel::fuse(const DepthImage& depth, const Pose& T_world_camera, const PinholeCamera& camera,
+                      const SensorBubble& bubble) {
+  const Eigen::Vector3d eye = T_world_camera.translation();
   if (volume_) {
     if (bubble.volume_m > 0.0) volume_changed_.merge(clearSphere(*volume_, eye, bubble.volume_m));
-    volume_changed_.merge(
-        fuseDepth(*volume_, frame.depth, camera, frame.T_world_camera, config_.fusion).changed);
+    volume_changed_.merge(fuseDepth(*volume_, depth, camera, T_world_camera, config_.fusion).changed);
   }
   if (octree_) {
     if (bubble.octree_m > 0.0 && config_.octree.outside == VoxelState::Unknown)
       octree_changed_.merge(octree_->clearSphere(eye, bubble.octree_m));
-    octree_changed_.merge(octree_->insert(frame.depth, camera, frame.T_world_camera).changed);
+    octree_changed_.merge(octree_->insert(depth, camera, T_world_camera).changed);
   }
 }
 

@@ -58,8 +58,9 @@ class WorldModel {
   /// \throws std::invalid_argument, std::runtime_error as the maps do.
   explicit WorldModel(const WorldConfig& config);
 
-  /// Fuses one frame.
-  void fuse(const DepthFrame& frame, const PinholeCamera& camera, const SensorBubble& bubble);
+  /// Fuses one depth image.
+  void fuse(const DepthImage& depth, const Pose& T_world_camera, const PinholeCamera& camera,
+            const SensorBubble& bubble);
   /// Takes a ball as empty where the octree knows nothing: a recorded sensor has been there.
   void clearOctree(const Eigen::Vector3d& center_world, double radius_m);
   /// Marks the octree's voxels outside the object's box as occupied whose centre lies in `box` and `inside`.

@@ -99,13 +99,13 @@ std::pair<float, float> sidesAround(const DepthImage& depth, int u, int v) {
 }  // namespace
 
 void DepthFilterConfig::validate() const {
-  requireInRange("filter: bilateral_diameter_px", bilateral_diameter_px, 1, 31);
-  requireInRange("filter: bilateral_sigma_px", bilateral_sigma_px, 0.1, 20.0);
-  requireInRange("filter: bilateral_sigma_m", bilateral_sigma_m, 0.001, 1.0);
-  requireInRange("filter: emitter_offset_m", emitter_offset_m, 0.001, 1.0);
-  requireInRange("filter: veil_angle_rad", veil_angle_rad, 0.001, 1.5);
-  requireInRange("filter: edge_step_share", edge_step_share, 0.001, 1.0);
-  requireInRange("filter: edge_side_share", edge_side_share, 0.0, 0.5);
+  requireInRange("filter.bilateral_diameter_px", bilateral_diameter_px, 1, 31);
+  requireInRange("filter.bilateral_sigma_px", bilateral_sigma_px, 0.1, 20.0);
+  requireInRange("filter.bilateral_sigma_m", bilateral_sigma_m, 0.001, 1.0);
+  requireInRange("filter.emitter_offset_m", emitter_offset_m, 0.001, 1.0);
+  requireInRange("filter.veil_angle_rad", veil_angle_rad, 0.001, 1.5);
+  requireInRange("filter.edge_step_share", edge_step_share, 0.001, 1.0);
+  requireInRange("filter.edge_side_share", edge_side_share, 0.0, 0.5);
 }
 
 DepthFilterConfig paperDepthFilters() {

@@ -91,6 +91,10 @@ StepRecord randomRecord(std::uint64_t seed, int step, bool closing) {
   depth->depth = DepthImage(31, 17);
   for (std::size_t i = 0; i < depth->depth.depth_m.size(); i += 2) random(depth->depth.depth_m[i]);
   record.depth = depth;
+  auto filtered = std::make_shared<FilteredDepth>(FilteredDepth{depth->depth, {}});
+  filtered->mask.resize(depth->depth.depth_m.size());
+  for (std::uint8_t& reason : filtered->mask) random(reason);
+  record.filtered = filtered;
   record.changed_bricks = randomBricks(random);
 
   auto contours = randomValue<Contours>(random);
@@ -142,6 +146,7 @@ void expectEqual(const StepRecord& a, const StepRecord& b) {
   EXPECT_EQ(a.planner, b.planner);
   EXPECT_EQ(a.realised_voxels, b.realised_voxels);
   EXPECT_EQ(bytesOf(a.depth), bytesOf(b.depth)) << "depth";
+  EXPECT_EQ(bytesOf(a.filtered), bytesOf(b.filtered)) << "filtered";
   EXPECT_EQ(bytesOf(a.contours), bytesOf(b.contours)) << "contours";
   EXPECT_EQ(bytesOf(a.surface), bytesOf(b.surface)) << "surface";
   EXPECT_EQ(bytesOf(a.labels), bytesOf(b.labels)) << "labels";

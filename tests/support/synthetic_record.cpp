@@ -192,6 +192,8 @@ SyntheticRun makeSyntheticRun(bool with_views) {
     record.scan.push_back({last->T_world_camera, -1});
   }
   record.depth = last;
+  record.filtered =
+      std::make_shared<const FilteredDepth>(filterDepth(last->depth, run.header.camera, paperDepthFilters()));
   auto bricks = std::make_shared<std::vector<TsdfBrick>>();
   for (const std::uint32_t brick : changed.list()) bricks->push_back({brick, run.volume.brick(brick)});
   record.changed_bricks = bricks;

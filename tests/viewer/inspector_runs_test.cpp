@@ -83,6 +83,23 @@ TEST_F(InspectorRunsTest, ARunThatIsDeletedWhileItIsWrittenIsTold) {
   });
 }
 
+TEST_F(InspectorRunsTest, FilteredRunsHaveAStageThatShowsWhatWasRemoved) {
+  const std::string file = *folder_ / "filtered.vantage";
+  testing::recordRun(testing::ballScene(),
+                     {"exploration.steps=1", "camera.faults=true", "filter.shadow=true", "filter.veil=true"},
+                     file);
+  InspectorDriver driver;
+  driver.open(file);
+  driver.ui.click("timeline/stage filtered");
+  driver.ui.settle();
+  EXPECT_TRUE(driver.inspector.preferences().view.layers.has(Layer::FilteredDepth));
+  EXPECT_THAT(driver.ui.words(), HasSubstr("last depth image, removed"));
+  EXPECT_THAT(driver.ui.words(), HasSubstr("px removed: shadow"));
+  EXPECT_THAT(driver.ui.words(), HasSubstr("px removed: veil"));
+  driver.open(run());
+  EXPECT_FALSE(driver.ui.has("timeline/stage filtered")) << "nothing was filtered there";
+}
+
 TEST_F(InspectorRunsTest, ParametersOfTheHierarchicalPlannerReRankItsViews) {
   const std::string file = *folder_ / "hierarchical.vantage";
   testing::recordRun(testing::ballScene(), {"exploration.steps=1", "exploration.planner=hierarchical"}, file);

@@ -12,7 +12,7 @@ LayerContent buildLayer(Layer layer, const SceneFrame& frame, const LayerStyle& 
       segmentLabelsLayer, segmentsLayer,      segmentRanksLayer, contourVoxelsLayer, contourPointsLayer,
       candidatesLayer,    utilitySphereLayer, hitVoxelsLayer,    occludersLayer,     coarseRaysLayer,
       refinedRaysLayer,   rankedViewsLayer,   chosenViewLayer,   pathLayer,          sensorLayer,
-      depthImageLayer};
+      depthImageLayer,    filteredDepthLayer};
   return kBuild[static_cast<std::size_t>(layer)](frame, style);
 }
 

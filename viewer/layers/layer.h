@@ -47,6 +47,7 @@ LayerContent chosenViewLayer(const SceneFrame& frame, const LayerStyle& style);
 LayerContent pathLayer(const SceneFrame& frame, const LayerStyle& style);
 LayerContent sensorLayer(const SceneFrame& frame, const LayerStyle& style);
 LayerContent depthImageLayer(const SceneFrame& frame, const LayerStyle& style);
+LayerContent filteredDepthLayer(const SceneFrame& frame, const LayerStyle& style);
 
 /// The content of any layer. \throws std::invalid_argument for a style that asks for what the step doesn't
 /// have.

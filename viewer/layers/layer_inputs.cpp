@@ -97,6 +97,8 @@ constexpr Reads readsOf(Layer layer) {
       return {kScan, kLines};
     case Layer::DepthImage:
       return {kScan, kColors};
+    case Layer::FilteredDepth:
+      return {kScan, kColors | kLines};
   }
   return {~0u, ~0u};
 }

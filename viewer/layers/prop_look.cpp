@@ -127,6 +127,7 @@ bool isClipped(Layer layer) {
     case Layer::Path:
     case Layer::Sensor:
     case Layer::DepthImage:
+    case Layer::FilteredDepth:
       return false;
     default:
       return true;

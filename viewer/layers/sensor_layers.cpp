@@ -2,10 +2,9 @@
 #include <vtkActor.h>
 #include <vtkProperty.h>
 
-#include <algorithm>
-#include <cmath>
-#include <iterator>
+#include <span>
 
+#include "viewer/depth_picture.h"
 #include "viewer/layers/layer.h"
 #include "viewer/layers/shapes.h"
 
@@ -33,31 +32,26 @@ vtkSmartPointer<vtkActor> bodyActor(const Pose& pose) {
   return faceActor(box, palette::kSensor, 1.0);
 }
 
-/// Range of the nearest three quarters of the valid depths, rounded outward to decimetres, so that a far wall
-/// doesn't take the whole scale; 0..1 if there are none.
-std::pair<double, double> depthRange(const DepthImage& depth) {
-  std::vector<float> valid;
-  std::copy_if(depth.depth_m.begin(), depth.depth_m.end(), std::back_inserter(valid), DepthImage::valid);
-  if (valid.empty()) return {0.0, 1.0};
-  const double low = std::floor(*std::min_element(valid.begin(), valid.end()) * 10.0) / 10.0;
-  const auto middle = valid.begin() + static_cast<std::ptrdiff_t>(valid.size() * 3 / 4);
-  std::nth_element(valid.begin(), middle, valid.end());
-  return {low, std::max(std::ceil(*middle * 10.0) / 10.0, low + 0.1)};
-}
+/// Every so many pixels of an image that were kept are drawn in space.
+constexpr int kKeptEvery = 3;
 
-/// Depth in colours; invalid pixels as a light grid, so that they can't be mistaken for a depth.
-RgbImage depthPicture(const DepthImage& depth, ColorMap map, double low, double high) {
-  RgbImage image(depth.width, depth.height);
-  for (int v = 0; v < depth.height; ++v) {
-    for (int u = 0; u < depth.width; ++u) {
-      const float d = depth.at(u, v);
-      const bool stripe = (u + v) % 12 < 3;
-      image.set(u, v,
-                DepthImage::valid(d) ? colorAt(map, (d - low) / (high - low)).bytes()
-                                     : (stripe ? rgb(205, 207, 210) : rgb(238, 239, 240)).bytes());
+/// Pixels in space: those that were removed, in their filter's colour, and a thin choice of the others.
+void addPixels(const DepthFrame& frame, const PinholeCamera& camera, std::span<const std::uint8_t> mask,
+               const LayerStyle& style, LayerContent& content) {
+  std::vector<Eigen::Vector3d> kept, removed;
+  std::vector<Rgb> colors;
+  for (int v = 0; v < frame.depth.height; ++v)
+    for (int u = 0; u < frame.depth.width; ++u) {
+      const float z = frame.depth.at(u, v);
+      if (!DepthImage::valid(z)) continue;
+      const auto color = removedColor(mask[static_cast<std::size_t>(v) * frame.depth.width + u]);
+      if (!color && (u % kKeptEvery != 0 || v % kKeptEvery != 0)) continue;
+      (color ? removed : kept).push_back(frame.T_world_camera * (camera.ray(u, v) * z));
+      if (color) colors.push_back(*color);
     }
-  }
-  return image;
+  content.props.push_back(dotActor(kept, {}, palette::kSurface, 2.0 * style.line_scale));
+  content.props.push_back(dotActor(removed, colors, palette::kInk, 3.0 * style.line_scale));
+  content.legend.push_back({Mark::Dot, palette::kSurface, 1.0, "pixels that were kept, one of nine"});
 }
 
 }  // namespace
@@ -91,6 +85,24 @@ LayerContent depthImageLayer(const SceneFrame& frame, const LayerStyle& style) {
   const ColorMap map = mapOf(style, ColorMap::Cividis);
   content.inset = Inset{"last depth image (striped: no return)", depthPicture(depth, map, low, high),
                         ColorScale{map, "depth, m", low, high, true}};
+  return content;
+}
+
+LayerContent filteredDepthLayer(const SceneFrame& frame, const LayerStyle& style) {
+  LayerContent content;
+  const StepRecord& record = frame.record;
+  if (!record.depth || !record.filtered || record.filtered->mask.size() != record.depth->depth.depth_m.size())
+    return content;
+  const DepthImage& measured = record.depth->depth;
+  const std::vector<std::uint8_t>& mask = record.filtered->mask;
+  const auto [low, high] = depthRange(measured);
+  const ColorMap map = mapOf(style, ColorMap::Cividis);
+  content.inset =
+      Inset{"last depth image, removed pixels coloured", filteredPicture(measured, mask, map, low, high),
+            ColorScale{map, "depth, m", low, high, true}};
+  if (frame.header.camera.width == measured.width && frame.header.camera.height == measured.height)
+    addPixels(*record.depth, frame.header.camera, mask, style, content);
+  for (LegendEntry& entry : removedLegend(countMask(mask))) content.legend.push_back(std::move(entry));
   return content;
 }
 

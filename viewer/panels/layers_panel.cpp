@@ -22,7 +22,7 @@ const std::vector<LayerGroup>& layerGroups() {
       {"Contours", {L::ContourVoxels, L::ContourPoints}},
       {"Views", {L::Candidates, L::UtilitySphere, L::RankedViews, L::ChosenView, L::Path}},
       {"What a view sees", {L::HitVoxels, L::Occluders, L::CoarseRays, L::RefinedRays}},
-      {"Sensor", {L::Sensor, L::DepthImage}},
+      {"Sensor", {L::Sensor, L::DepthImage, L::FilteredDepth}},
       {"Frame", {L::Workspace, L::ObjectBox, L::Axes}}};
   return groups;
 }

@@ -2,8 +2,10 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -113,7 +115,8 @@ class Column {
 }  // namespace
 
 struct ViewInsets::State {
-  Picture view, layer;
+  Picture view;
+  std::array<Picture, 2> layers;  ///< of those that have a picture, in their order
   std::uint64_t of_step = 0;
   std::vector<WidgetBox> boxes;          ///< of the last frame
   std::vector<LegendEntry> view_legend;  ///< of what the view counts and what ends its rays
@@ -159,18 +162,21 @@ void ViewInsets::State::drawView(PanelContext& context, Viewport& viewport, Colu
              context.theme.chosen);
 }
 
-/// The depth image is the only layer with a picture; a second one would want a texture of its own.
 void ViewInsets::State::drawLayers(PanelContext& context, Column& column, std::uint64_t revision) {
+  std::size_t shown = 0;
   for (const LayerNotes* notes : context.scene.shownNotes()) {
-    if (!notes->inset) continue;
+    if (!notes->inset || shown == layers.size()) continue;
     const Inset& inset = *notes->inset;
     const float height = heightOf(column.width(), inset.image.width, inset.image.height);
     if (!column.hasRoom(height)) return;
-    const auto map = static_cast<std::uint64_t>(inset.scale.map);
-    if (!layer.isOf(revision, map, inset.image.width))
-      layer.set(inset.image, revision, map, inset.image.width);
-    column.add("depth", layer, height, {inset.title, {}, inset.scale}, context.theme.faint);
-    return;
+    const std::uint64_t what =
+        std::hash<std::string>()(inset.title) ^ static_cast<std::uint64_t>(inset.scale.map);
+    Picture& picture = layers[shown];
+    if (!picture.isOf(revision, what, inset.image.width))
+      picture.set(inset.image, revision, what, inset.image.width);
+    const std::string name = shown == 0 ? "depth" : "depth " + std::to_string(shown + 1);
+    column.add(name, picture, height, {inset.title, {}, inset.scale}, context.theme.faint);
+    ++shown;
   }
 }
 

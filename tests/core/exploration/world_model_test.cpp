@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace vantage {
 namespace {
 
@@ -19,21 +21,19 @@ WorldConfig bothMaps() {
   return config;
 }
 
-/// An image without a measurement, taken from the origin.
-DepthFrame emptyFrame(const PinholeCamera& camera) {
-  DepthFrame frame;
-  frame.depth.width = camera.width;
-  frame.depth.height = camera.height;
-  frame.depth.depth_m.assign(static_cast<std::size_t>(camera.width) * camera.height, 0.0f);
-  frame.T_world_camera = Pose::Identity();
-  return frame;
+/// An image without a measurement.
+DepthImage emptyImage(const PinholeCamera& camera) {
+  DepthImage depth(camera.width, camera.height);
+  std::ranges::fill(depth.depth_m, 0.0f);
+  return depth;
 }
 
 TEST(WorldModel, TakesTheBubbleOfEachMapAsEmptyAlone) {
   const PinholeCamera camera;
   for (const bool in_volume : {true, false}) {
     WorldModel world(bothMaps());
-    world.fuse(emptyFrame(camera), camera, in_volume ? SensorBubble{0.2, 0.0} : SensorBubble{0.0, 0.2});
+    world.fuse(emptyImage(camera), Pose::Identity(), camera,
+               in_volume ? SensorBubble{0.2, 0.0} : SensorBubble{0.0, 0.2});
     world.finishScan();
     const Box all(Vector3d::Constant(-1), Vector3d::Constant(1));
     EXPECT_EQ(world.surfaceStates()->count(VoxelState::Free, all) > 300, in_volume);
