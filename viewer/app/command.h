@@ -31,6 +31,7 @@ using Action = std::function<int()>;
 void addExplore(CLI::App& app, const GlobalOptions& global, Action& action);
 void addView(CLI::App& app, const GlobalOptions& global, Action& action);
 void addSnapshot(CLI::App& app, const GlobalOptions& global, Action& action);
+void addFilter(CLI::App& app, const GlobalOptions& global, Action& action);
 void addFuse(CLI::App& app, const GlobalOptions& global, Action& action);
 void addContours(CLI::App& app, const GlobalOptions& global, Action& action);
 void addViews(CLI::App& app, const GlobalOptions& global, Action& action);

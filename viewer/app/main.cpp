@@ -100,6 +100,7 @@ void addCommands(CLI::App& app, const GlobalOptions& global, Action& action) {
   addExplore(app, global, action);
   addView(app, global, action);
   addSnapshot(app, global, action);
+  addFilter(app, global, action);
   addFuse(app, global, action);
   addContours(app, global, action);
   addViews(app, global, action);

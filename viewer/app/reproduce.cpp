@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "io/config_file.h"
@@ -20,39 +22,40 @@ struct ReproduceOptions {
   std::vector<std::string> experiments, meshes;
   std::string output, dataset, up;
   std::vector<double> sizes_m;
+  std::optional<std::uint64_t> seeds;
   bool quick = false;
 };
 
-/// What the user chose; A1 first, since A3 compares with it.
-struct Choice {
-  bool a1 = false, a2 = false, a3 = false;
+const std::vector<std::string> kExperiments = {"A1", "A2", "A3", "B1", "B3", "B4"};
 
-  explicit Choice(const std::vector<std::string>& names) {
-    for (const std::string& name : names) {
-      a1 |= name == "A1" || name == "all";
-      a2 |= name == "A2" || name == "all";
-      a3 |= name == "A3" || name == "all";
-    }
+/// What the user chose, in the order in which it runs: A1 first, since A3 compares with it.
+struct Choice {
+  std::vector<std::string> names;
+
+  explicit Choice(const std::vector<std::string>& asked) {
+    const auto isAsked = [&](const std::string& name) {
+      return std::ranges::find(asked, name) != asked.end();
+    };
+    for (const std::string& name : kExperiments)
+      if (isAsked(name) || isAsked("all")) names.push_back(name);
   }
-  std::string text() const {
-    std::string words;
-    for (const auto& [chosen, name] : {std::pair(a1, "A1"), std::pair(a2, "A2"), std::pair(a3, "A3")})
-      if (chosen) words += (words.empty() ? "" : ", ") + std::string(name);
-    return words;
-  }
+  bool has(const std::string& name) const { return std::ranges::find(names, name) != names.end(); }
+  std::string text() const { return fmt::format("{}", fmt::join(names, ", ")); }
 };
 
 /// Refuses options that would change nothing.
 void requireEffect(const Choice& choice, const ReproduceOptions& o) {
   const auto refuse = [&](const char* option, const std::string& why) { throw InputError(option, why); };
-  if (!o.dataset.empty() && !choice.a3)
+  if (!o.dataset.empty() && !choice.has("A3"))
     refuse("--dataset", "is used by A3 alone; add A3 or leave the option out");
+  if (o.seeds && !choice.has("B1"))
+    refuse("--seeds", "counts the runs of B1; add B1 or leave the option out");
   if (!o.up.empty() && o.meshes.empty())
     refuse("--up", "turns meshes; add --mesh FILE or leave the option out");
-  if (choice.a1) return;
-  const std::size_t most = choice.a2 ? 1 : 0;
-  const std::string why =
-      choice.a2 ? "A2 takes one; give one or add A1" : "A3 has a scene of its own; add A1 or A2";
+  if (choice.has("A1")) return;
+  const std::size_t most = choice.has("A2") ? 1 : 0;
+  const std::string why = choice.has("A2") ? "A2 takes one; give one or add A1"
+                                           : choice.text() + " has scenes of its own; add A1 or A2";
   if (o.meshes.size() > most) refuse("--mesh", why);
   if (o.sizes_m.size() > most) refuse("--sizes", why);
 }
@@ -91,6 +94,9 @@ ExperimentOptions experimentOptions(const GlobalOptions& global, const Reproduce
     say(global, line);
   };
   result.control = console.control();
+  result.seeds = options.seeds;
+  result.keep = std::filesystem::path(options.output) / "runs";
+  result.program = versionText(false);
   return result;
 }
 
@@ -106,9 +112,11 @@ void requireFolder(const std::string& path) {
 void check(const Choice& choice, const ExperimentOptions& options) {
   if (!options.dataset.empty() && !std::filesystem::is_directory(options.dataset))
     throw InputError("--dataset " + options.dataset, "is no folder; give one with a recorded sequence");
-  if (choice.a1) checkA1(options);
-  if (choice.a2) checkA2(options);
-  if (choice.a3) checkA3(options);
+  if (choice.has("A1")) checkA1(options);
+  if (choice.has("A2")) checkA2(options);
+  if (choice.has("A3")) checkA3(options);
+  if (choice.has("B1")) checkB1(options);
+  if (choice.has("B3")) checkB3(options);
 }
 
 /// \param report gets what is finished, even if a later experiment fails
@@ -118,15 +126,18 @@ void runChosen(const Choice& choice, const ExperimentOptions& options, Report& r
     part.markInterruption();
     report.append(std::move(part));
   };
-  if (choice.a1) add(runA1(options, seconds_per_view));
-  if (choice.a2) add(runA2(options));
-  if (choice.a3) add(runA3(options, seconds_per_view));
+  if (choice.has("A1")) add(runA1(options, seconds_per_view));
+  if (choice.has("A2")) add(runA2(options));
+  if (choice.has("A3")) add(runA3(options, seconds_per_view));
+  if (choice.has("B1")) add(runB1(options));
+  if (choice.has("B3")) add(runB3(options));
+  if (choice.has("B4")) add(runB4(options));
 }
 
 void printReport(const GlobalOptions& global, const Report& report) {
   for (const std::string& line : report.setup) say(global, line);
   for (const experiments::Table& table : report.tables)
-    if (table.name != "a1_steps") say(global, "\n" + experiments::tableText(table));
+    if (table.name != "a1_steps" && table.name != "b1") say(global, "\n" + experiments::tableText(table));
   say(global, experiments::summaryText(report));
 }
 
@@ -181,11 +192,18 @@ void addReproduce(CLI::App& app, const GlobalOptions& global, Action& action) {
   CLI::App* command =
       app.add_subcommand("reproduce", "Run the experiments of the papers and print their tables");
   command
-      ->add_option("experiment", o->experiments,
-                   "One or more; A1: uniform against hierarchical ray tracing; A2: mean against maximum; A3: "
-                   "evaluation rate")
+      ->add_option(
+          "experiment", o->experiments,
+          "One or more; A1: uniform against hierarchical ray tracing; A2: mean against maximum; A3: "
+          "evaluation "
+          "rate; B1: contour-based planner against the standard one; B3: outliers that depth filters leave; "
+          "B4: false discovery rate of the shadow filter")
       ->required()
-      ->check(CLI::IsMember({"A1", "A2", "A3", "all"}));
+      ->check(CLI::IsMember([] {
+        std::vector<std::string> names = kExperiments;
+        names.push_back("all");
+        return names;
+      }()));
   command->add_option("-o,--output", o->output, "Folder for CSV, JSON and one HTML page")
       ->required()
       ->type_name("DIR");
@@ -206,6 +224,11 @@ void addReproduce(CLI::App& app, const GlobalOptions& global, Action& action) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("M,M");
+  command
+      ->add_option("--seeds", o->seeds,
+                   "Runs of each scene and method in B1 (default: 5 of the core series, else 1)")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N");
   command->add_option("--dataset", o->dataset, "Recorded sequence for A3")->type_name("DIR");
   command->footer("Example: vantage reproduce A1 --quick -o reproduction");
   command->callback([&global, &action, o] { action = [&global, o] { return reproduce(global, *o); }; });

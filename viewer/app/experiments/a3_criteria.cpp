@@ -71,19 +71,10 @@ Claim secondClaim(const RateSet& set) {
 
 }  // namespace
 
-std::string Spread::text(int decimals) const {
-  return deviation ? fmt::format("{:.{}f} +- {:.{}f}", mean, decimals, *deviation, decimals)
-                   : fmt::format("{:.{}f}", mean, decimals);
-}
-
 Spread RateSet::spread(const std::function<double(const RateRun&)>& measure) const {
-  Spread result;
-  const double n = static_cast<double>(runs.size());
-  double squares = 0.0;
-  for (const RateRun& run : runs) result.mean += measure(run) / n;
-  for (const RateRun& run : runs) squares += std::pow(measure(run) - result.mean, 2);
-  if (runs.size() > 1) result.deviation = std::sqrt(squares / (n - 1));
-  return result;
+  std::vector<double> values;
+  for (const RateRun& run : runs) values.push_back(measure(run));
+  return spreadOf(values);
 }
 
 Spread RateSet::evaluate_s() const {

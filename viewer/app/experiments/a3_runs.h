@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "viewer/app/experiments/experiments.h"
+#include "viewer/app/experiments/spread.h"
 
 namespace vantage::experiments {
 
@@ -31,13 +32,6 @@ struct RateRun {
   std::optional<double> secondsPerView() const;
   /// Every scan leaves less unknown than the one before.
   bool unknownFalls() const;
-};
-
-/// Mean and, of two values or more, sample standard deviation.
-struct Spread {
-  double mean = 0.0;
-  std::optional<double> deviation;
-  std::string text(int decimals) const;
 };
 
 /// The runs of one input with different seeds of the candidates; not empty.

@@ -1,9 +1,12 @@
 #pragma once
 
-// The experiments of the hierarchical planner (A1, A2, A3) on scenes of our own, on given meshes and on
-// recorded data: ratios, orderings and pass criteria, each with its value.
+// The experiments of the hierarchical planner (A1, A2, A3) and of the contour-based one (B1 to B4) on scenes
+// of our own, on given meshes and on recorded data: ratios, orderings and pass criteria, each with its value.
 
+#include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,7 +29,10 @@ struct ExperimentOptions {
   std::string dataset;                         ///< folder of a recorded sequence for A3, may be empty
   int max_steps = 20;                          ///< planning steps of a run
   int repeats = 5;                             ///< of phases shorter than a second
-  std::function<void(Settings&)> tune;         ///< changes every run's settings; may be empty
+  std::optional<std::uint64_t> seeds;  ///< B1: of every series; empty: five of the core, one of the others
+  std::filesystem::path keep;  ///< folder for finished runs of B1, taken over by the next call; empty: none
+  std::string program;         ///< version and commit: runs of another program are not taken over
+  std::function<void(Settings&)> tune;  ///< changes every run's settings; may be empty
   std::function<void(const std::string&)> say = [](const std::string&) {};  ///< a line for people
   RunControl control;
 };
@@ -47,11 +53,20 @@ Report runA2(const ExperimentOptions& options);
 /// \param seconds_per_view of A1; if empty, one run like those of A1 measures it
 Report runA3(const ExperimentOptions& options, const std::vector<double>& seconds_per_view);
 
+/// The contour-based planner against the standard baseline on four tabletop scenes.
+Report runB1(const ExperimentOptions& options);
+/// Outliers that depth filters leave on a scene of planes.
+Report runB3(const ExperimentOptions& options);
+/// False discovery rate of the shadow filter at a bar before a wall.
+Report runB4(const ExperimentOptions& options);
+
 /// What can be known to stop an experiment before it runs: meshes, recorded data, settings.
 /// \throws InputError naming it
 void checkA1(const ExperimentOptions& options);
 void checkA2(const ExperimentOptions& options);
 void checkA3(const ExperimentOptions& options);
+void checkB1(const ExperimentOptions& options);
+void checkB3(const ExperimentOptions& options);
 
 /// Processor, threads and memory of this machine, a line each.
 std::vector<std::string> machineText();

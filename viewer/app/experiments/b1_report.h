@@ -1,0 +1,39 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "viewer/app/experiments/b1_runs.h"
+#include "viewer/app/experiments/report.h"
+#include "viewer/app/experiments/spread.h"
+
+namespace vantage::experiments {
+
+/// All runs of B1 that were finished.
+using Runs = std::vector<ExplorationRun>;
+
+/// Runs of one series and method; of one scene unless `scene` is empty. They point into `runs`.
+std::vector<const ExplorationRun*> select(const Runs& runs, Series series, bool proposed,
+                                          const std::string& scene = "");
+/// Mean and deviation of a figure of runs.
+Spread spreadOver(const std::vector<const ExplorationRun*>& runs,
+                  const std::function<double(const ExplorationRun&)>& figure);
+/// Scenes in the order of the runs.
+std::vector<std::string> scenesOf(const Runs& runs);
+
+/// A row for each NBV, and one for each run.
+Table nbvTable(const Runs& runs);
+Table runTable(const Runs& runs);
+/// Tables 1 and 3 of the paper beside ours, of the core series.
+Table phaseTable(const Runs& runs);
+Table tickTable(const Runs& runs);
+/// Table 2: segments of the third NBV of the first proposed run on `tabletop`; empty if there is none.
+Table segmentTable(const Runs& runs);
+/// Fig. 18: mean unknown near the objects, a plot for each scene.
+std::vector<LinePlot> unknownPlots(const Runs& runs);
+
+/// Criteria 1 to 6 on the core series. What was not run for both methods is "not run".
+void judgeB1(const Runs& runs, Report& report);
+
+}  // namespace vantage::experiments

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "core/exploration/step_record.h"
+#include "io/scene_truth.h"
+#include "viewer/app/experiments/b1_runs.h"
+
+namespace vantage::experiments {
+
+/// Which true objects the segments of a step lie on: a segment is that of the object on which most of its
+/// points lie, within 2 cm.
+class SegmentObjects {
+ public:
+  /// \pre the record holds surface, labels, saliency and search of the contour planner
+  SegmentObjects(const StepRecord& record, const SceneTruth& truth);
+
+  /// In the order in which they are tried.
+  std::vector<SegmentRow> rows() const;
+  SaliencyCheck check() const;
+
+ private:
+  struct Points {
+    std::uint64_t all = 0;
+    std::vector<std::uint64_t> of_object;
+    std::uint64_t onObjects() const;
+  };
+  bool isObject(const SegmentSearch& search) const;
+  /// Label of a group of contour points, 0 = those without a segment.
+  std::uint32_t labelOf(const SegmentSearch& search) const;
+
+  const StepRecord& record_;
+  const SceneTruth& truth_;
+  std::vector<Points> by_label_;  ///< index 0 = points without a segment
+};
+
+}  // namespace vantage::experiments
