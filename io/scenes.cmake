@@ -38,4 +38,6 @@ vantage_embed_assets(vantage_io_scene
   scenes/tabletop.toml
   scenes/tabletop_open.toml
   scenes/tuning_a.toml
-  scenes/tuning_b.toml)
+  scenes/tuning_b.toml
+  scenes/unseen_kitchen.toml
+  scenes/unseen_workshop.toml)

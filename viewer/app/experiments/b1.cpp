@@ -26,6 +26,7 @@ std::vector<RunOf> plannedRuns(const ExperimentOptions& options) {
   add(Series::Core, options.seeds.value_or(5), kScenes);
   for (const Series series : {Series::Open, Series::Filtered, Series::Exact})
     add(series, options.seeds.value_or(1), kScenes);
+  add(Series::Unseen, options.seeds.value_or(1), {"unseen_kitchen", "unseen_workshop"});
   return runs;
 }
 

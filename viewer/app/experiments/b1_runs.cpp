@@ -88,7 +88,7 @@ void fill(ExplorationRun& result) {
 }  // namespace
 
 std::string_view toString(Series series) {
-  constexpr std::string_view kNames[] = {"core", "open", "filtered", "exact"};
+  constexpr std::string_view kNames[] = {"core", "open", "filtered", "exact", "unseen"};
   return kNames[static_cast<int>(series)];
 }
 

@@ -22,8 +22,9 @@ enum class Series {
   Open,      ///< without the panel
   Filtered,  ///< a sensor with faults and the filters behind it
   Exact,     ///< no noise
+  Unseen,    ///< as the core, on scenes by somebody who had not seen the defaults
 };
-/// `core`, `open`, `filtered`, `exact`.
+/// `core`, `open`, `filtered`, `exact`, `unseen`.
 std::string_view toString(Series series);
 
 /// One run of B1.
