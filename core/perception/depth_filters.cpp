@@ -25,11 +25,15 @@ void forRows(int height, Row row) {
   });
 }
 
-/// The same with whatever a valid depth isn't as NaN, so that every comparison with it is false.
+/// A depth as it is, or NaN, so that every comparison with it is false. DepthImage::valid() in a form that
+/// vectorises.
+float orNone(float z) {
+  return z > 0.0f && z <= std::numeric_limits<float>::max() ? z : kNone;
+}
+
 DepthImage withoutInvalid(const DepthImage& depth) {
-  DepthImage clean = depth;
-  for (float& z : clean.depth_m)
-    if (!DepthImage::valid(z)) z = kNone;
+  DepthImage clean(depth.width, depth.height);
+  std::ranges::transform(depth.depth_m, clean.depth_m.begin(), orNone);
   return clean;
 }
 
@@ -54,15 +58,17 @@ struct PointRow {
 
   void load(const DepthImage& depth, const PinholeCamera& camera, int v) {
     const auto width = static_cast<std::size_t>(depth.width);
-    for (std::vector<float>* part : {&x, &y, &z, &length2}) part->assign(width, kNone);
-    if (v < 0 || v >= depth.height) return;
+    const bool outside = v < 0 || v >= depth.height;
+    for (std::vector<float>* part : {&x, &y, &z, &length2})
+      outside ? part->assign(width, kNone) : part->resize(width);
+    if (outside) return;
     const float* row = depth.depth_m.data() + rowStart(depth, v);
     const auto fx = static_cast<float>(1.0 / camera.fx), cx = static_cast<float>(camera.cx);
     const auto ray_y = static_cast<float>((v - camera.cy) / camera.fy);
     for (std::size_t u = 0; u < width; ++u) {
-      z[u] = row[u];
-      x[u] = (static_cast<float>(u) - cx) * fx * row[u];
-      y[u] = ray_y * row[u];
+      z[u] = orNone(row[u]);
+      x[u] = (static_cast<float>(u) - cx) * fx * z[u];
+      y[u] = ray_y * z[u];
       length2[u] = x[u] * x[u] + y[u] * y[u] + z[u] * z[u];
     }
   }
@@ -159,15 +165,14 @@ void markShadow(const DepthImage& depth, const PinholeCamera& camera, const Dept
 
 void markVeil(const DepthImage& depth, const PinholeCamera& camera, const DepthFilterConfig& config,
               std::span<std::uint8_t> mask) {
-  const DepthImage clean = withoutInvalid(depth);
   const auto width = static_cast<std::size_t>(depth.width);
   const auto cos2 = static_cast<float>(std::pow(std::cos(config.veil_angle_rad), 2));
   tbb::parallel_for(tbb::blocked_range<int>(0, depth.height, 16), [&](const tbb::blocked_range<int>& rows) {
     PointRow above, row, below;
-    above.load(clean, camera, rows.begin() - 1);
-    row.load(clean, camera, rows.begin());
+    above.load(depth, camera, rows.begin() - 1);
+    row.load(depth, camera, rows.begin());
     for (int v = rows.begin(); v < rows.end(); ++v) {
-      below.load(clean, camera, v + 1);
+      below.load(depth, camera, v + 1);
       std::uint8_t* out = mask.data() + rowStart(depth, v);
       markGrazing(row, 0, row, 1, width - 1, cos2, out);
       markGrazing(row, 1, row, 0, width - 1, cos2, out);
@@ -209,7 +214,7 @@ FilteredDepth filterDepth(const DepthImage& depth, const PinholeCamera& camera,
   if (config.veil) markVeil(result.depth, camera, config, result.mask);
   if (config.edge_aware) markEdges(result.depth, config, result.mask);
   for (std::size_t i = 0; i < result.mask.size(); ++i) {
-    if (!DepthImage::valid(depth.depth_m[i])) result.mask[i] = depth_mask::kInvalid;
+    if (std::isnan(orNone(depth.depth_m[i]))) result.mask[i] = depth_mask::kInvalid;
     if (result.mask[i] != 0) result.depth.depth_m[i] = kNone;
   }
   return result;

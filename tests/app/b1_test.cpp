@@ -171,10 +171,18 @@ TEST(KeptRuns, GiveBackWhatWasKeptForTheSameSetupAlone) {
   RunOf other = run.run;
   other.seed = 3;
   EXPECT_FALSE(kept.find(other, {})) << "another run";
+  RunOf variant = run.run;
+  variant.variant = "B_th = 0.05 m";
+  variant.settings = {"saliency.isolation_distance_m=0.05"};
+  EXPECT_FALSE(kept.find(variant, {})) << "another variant";
+  kept.keep(ExplorationRun{variant, run.nbvs, run.unknown_near_objects, run.unknown_in_boxes, 0.5, "done"},
+            {});
+  EXPECT_TRUE(kept.find(variant, {}));
+  EXPECT_TRUE(kept.find(run.run, {}));
   EXPECT_FALSE(KeptRuns(folder.path() / "runs", "1.1").find(run.run, {})) << "another program";
   EXPECT_FALSE(kept.find(run.run, [](Settings& s) { s.exploration.contour.gain.gain_threshold = 500; }))
       << "other settings";
-  test::writeFile(folder.path() / "runs/b1-tabletop-core-proposed-2.json", "{\"setup\": ");
+  test::writeFile(folder.path() / "runs/tabletop-core-proposed-2.json", "{\"setup\": ");
   EXPECT_FALSE(kept.find(run.run, {})) << "cut short";
   EXPECT_FALSE(KeptRuns("", "1.0").find(run.run, {})) << "nothing is kept";
 }

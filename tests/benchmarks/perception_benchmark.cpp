@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "core/perception/contours.h"
+#include "core/perception/depth_filters.h"
 #include "core/perception/saliency.h"
 #include "core/perception/segmentation.h"
 #include "core/perception/surface_cloud.h"
@@ -120,6 +121,39 @@ void rescore(benchmark::State& state) {
   const Saliency kept = computeSaliency(cloud(), labels(), {});
   for (auto _ : state) benchmark::DoNotOptimize(rescoreSegments(kept, labels(), {}));
 }
+
+/// A frame of 512x424: the same boxes before a wall, with noise and holes. Second argument: filters.
+enum FilterChoice { ShadowAndVeil, WithEdges, Paper };
+
+DepthImage noisyDepth() {
+  DepthImage depth(512, 424);
+  std::uint32_t state = 12345;
+  for (int v = 0; v < depth.height; ++v)
+    for (int u = 0; u < depth.width; ++u) {
+      state = state * 1664525u + 1013904223u;
+      const float noise = 0.004f * static_cast<float>(state >> 8) / 16777216.0f;
+      const bool box = (u / 40) % 2 == 0 && v > 150 && v < 330;
+      if (state % 50 != 0) depth.at(u, v) = (box ? 1.0f : 2.5f) + noise;
+    }
+  return depth;
+}
+
+void depthFilters(benchmark::State& state) {
+  tbb::global_control limit(tbb::global_control::max_allowed_parallelism, state.range(0));
+  DepthFilterConfig config;
+  config.shadow = config.veil = true;
+  config.edge_aware = state.range(1) == WithEdges;
+  config.bilateral = state.range(1) == Paper;
+  const DepthImage depth = noisyDepth();
+  FilteredDepth filtered;
+  for (auto _ : state) benchmark::DoNotOptimize(filtered = filterDepth(depth, {}, config));
+  state.counters["removed"] = static_cast<double>(countMask(filtered.mask).removed());
+}
+BENCHMARK(depthFilters)
+    ->ArgNames({"threads", "edges1_paper2"})
+    ->ArgsProduct({{1, 2}, {ShadowAndVeil, WithEdges, Paper}})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 
 BENCHMARK(contours)->Arg(1)->Arg(2)->ArgName("threads")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(surface)->Arg(1)->Arg(2)->ArgName("threads")->Unit(benchmark::kMillisecond)->UseRealTime();

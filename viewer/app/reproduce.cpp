@@ -26,7 +26,7 @@ struct ReproduceOptions {
   bool quick = false;
 };
 
-const std::vector<std::string> kExperiments = {"A1", "A2", "A3", "B1", "B3", "B4"};
+const std::vector<std::string> kExperiments = {"A1", "A2", "A3", "B1", "B2", "B3", "B4"};
 
 /// What the user chose, in the order in which it runs: A1 first, since A3 compares with it.
 struct Choice {
@@ -48,8 +48,8 @@ void requireEffect(const Choice& choice, const ReproduceOptions& o) {
   const auto refuse = [&](const char* option, const std::string& why) { throw InputError(option, why); };
   if (!o.dataset.empty() && !choice.has("A3"))
     refuse("--dataset", "is used by A3 alone; add A3 or leave the option out");
-  if (o.seeds && !choice.has("B1"))
-    refuse("--seeds", "counts the runs of B1; add B1 or leave the option out");
+  if (o.seeds && !choice.has("B1") && !choice.has("B2"))
+    refuse("--seeds", "counts the runs of B1 and B2; add one of them or leave the option out");
   if (!o.up.empty() && o.meshes.empty())
     refuse("--up", "turns meshes; add --mesh FILE or leave the option out");
   if (choice.has("A1")) return;
@@ -116,6 +116,7 @@ void check(const Choice& choice, const ExperimentOptions& options) {
   if (choice.has("A2")) checkA2(options);
   if (choice.has("A3")) checkA3(options);
   if (choice.has("B1")) checkB1(options);
+  if (choice.has("B2")) checkB2(options);
   if (choice.has("B3")) checkB3(options);
 }
 
@@ -130,6 +131,7 @@ void runChosen(const Choice& choice, const ExperimentOptions& options, Report& r
   if (choice.has("A2")) add(runA2(options));
   if (choice.has("A3")) add(runA3(options, seconds_per_view));
   if (choice.has("B1")) add(runB1(options));
+  if (choice.has("B2")) add(runB2(options));
   if (choice.has("B3")) add(runB3(options));
   if (choice.has("B4")) add(runB4(options));
 }
@@ -192,12 +194,12 @@ void addReproduce(CLI::App& app, const GlobalOptions& global, Action& action) {
   CLI::App* command =
       app.add_subcommand("reproduce", "Run the experiments of the papers and print their tables");
   command
-      ->add_option(
-          "experiment", o->experiments,
-          "One or more; A1: uniform against hierarchical ray tracing; A2: mean against maximum; A3: "
-          "evaluation "
-          "rate; B1: contour-based planner against the standard one; B3: outliers that depth filters leave; "
-          "B4: false discovery rate of the shadow filter")
+      ->add_option("experiment", o->experiments,
+                   "One or more; A1: uniform against hierarchical ray tracing; A2: mean against maximum; A3: "
+                   "evaluation "
+                   "rate; B1: contour-based planner against the standard one; B2: its parts, changed one at "
+                   "a time; B3: outliers that depth filters leave; "
+                   "B4: false discovery rate of the shadow filter")
       ->required()
       ->check(CLI::IsMember([] {
         std::vector<std::string> names = kExperiments;
@@ -226,7 +228,8 @@ void addReproduce(CLI::App& app, const GlobalOptions& global, Action& action) {
       ->type_name("M,M");
   command
       ->add_option("--seeds", o->seeds,
-                   "Runs of each scene and method in B1 (default: 5 of the core series, else 1)")
+                   "Runs of each scene and method in B1, of each variant in B2 (default: 5 of the core "
+                   "series, else 1)")
       ->check(CLI::Range(1, 1000))
       ->type_name("N");
   command->add_option("--dataset", o->dataset, "Recorded sequence for A3")->type_name("DIR");

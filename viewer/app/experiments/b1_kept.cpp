@@ -1,6 +1,8 @@
 // Runs that are kept, so that hours of work outlive an interruption.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <functional>
 #include <nlohmann/json.hpp>
 
@@ -78,8 +80,11 @@ KeptRuns::KeptRuns(std::filesystem::path folder, std::string program)
     : folder_(std::move(folder)), program_(std::move(program)) {}
 
 std::filesystem::path KeptRuns::fileOf(const RunOf& run) const {
-  return folder_ /
-         fmt::format("b1-{}-{}-{}-{}.json", run.scene, toString(run.series), run.method(), run.seed);
+  std::string name = fmt::format("{}-{}-{}-{}", run.scene, toString(run.series), run.method(), run.seed);
+  if (!run.variant.empty()) name += "-" + run.variant;
+  std::ranges::replace_if(
+      name, [](unsigned char c) { return !std::isalnum(c) && c != '-' && c != '.'; }, '_');
+  return folder_ / (name + ".json");
 }
 
 /// All that a result depends on, as one number in hexadecimal.

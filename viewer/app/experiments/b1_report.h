@@ -13,6 +13,13 @@ namespace vantage::experiments {
 /// All runs of B1 that were finished.
 using Runs = std::vector<ExplorationRun>;
 
+struct ExperimentOptions;
+
+/// Makes the runs, or takes over those that were kept. What an interruption left out is named in the report.
+/// \param experiment "B1" or "B2", for people
+Runs exploreAll(const std::string& experiment, const std::vector<RunOf>& planned,
+                const ExperimentOptions& options, Report& report);
+
 /// Runs of one series and method; of one scene unless `scene` is empty. They point into `runs`.
 std::vector<const ExplorationRun*> select(const Runs& runs, Series series, bool proposed,
                                           const std::string& scene = "");

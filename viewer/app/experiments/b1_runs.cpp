@@ -93,7 +93,8 @@ std::string_view toString(Series series) {
 }
 
 std::string RunOf::text() const {
-  return fmt::format("{} {} {} seed {}", scene, toString(series), method(), seed);
+  return fmt::format("{} {} {} seed {}{}{}", scene, toString(series), method(), seed,
+                     variant.empty() ? "" : ", ", variant);
 }
 
 int ExplorationRun::ticks() const {
@@ -129,6 +130,7 @@ Settings settingsOf(const RunOf& run, const SceneFile& scene, const std::functio
   Settings settings;
   applyScene(settings, scene);
   if (tune) tune(settings);
+  for (const std::string& assignment : run.settings) applyAssignment(settings, assignment, "variant");
   ExplorationConfig& exploration = settings.exploration;
   exploration.steps = kNbvs;
   exploration.planners = {run.proposed ? PlannerKind::Contour : PlannerKind::Standard};

@@ -33,8 +33,10 @@ struct RunOf {
   Series series = Series::Core;
   bool proposed = true;  ///< false: the standard baseline (D-B16)
   std::uint64_t seed = 1;
+  std::string variant = "";                ///< of B2, e.g. "no isolation"; empty: as it is
+  std::vector<std::string> settings = {};  ///< what makes the variant, "key=value"
   std::string method() const { return proposed ? "proposed" : "standard"; }
-  /// "tabletop core proposed seed 1".
+  /// "tabletop core proposed seed 1", and the variant.
   std::string text() const;
 };
 

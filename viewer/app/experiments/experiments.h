@@ -29,9 +29,11 @@ struct ExperimentOptions {
   std::string dataset;                         ///< folder of a recorded sequence for A3, may be empty
   int max_steps = 20;                          ///< planning steps of a run
   int repeats = 5;                             ///< of phases shorter than a second
-  std::optional<std::uint64_t> seeds;  ///< B1: of every series; empty: five of the core, one of the others
-  std::filesystem::path keep;  ///< folder for finished runs of B1, taken over by the next call; empty: none
-  std::string program;         ///< version and commit: runs of another program are not taken over
+  std::optional<std::uint64_t>
+      seeds;  ///< B1, B2: of every series; empty: five of the core, one of the others
+  std::filesystem::path
+      keep;             ///< folder for finished runs of B1 and B2, taken over by the next call; empty: none
+  std::string program;  ///< version and commit: runs of another program are not taken over
   std::function<void(Settings&)> tune;  ///< changes every run's settings; may be empty
   std::function<void(const std::string&)> say = [](const std::string&) {};  ///< a line for people
   RunControl control;
@@ -55,6 +57,8 @@ Report runA3(const ExperimentOptions& options, const std::vector<double>& second
 
 /// The contour-based planner against the standard baseline on four tabletop scenes.
 Report runB1(const ExperimentOptions& options);
+/// Parts of the contour-based planner changed one at a time.
+Report runB2(const ExperimentOptions& options);
 /// Outliers that depth filters leave on a scene of planes.
 Report runB3(const ExperimentOptions& options);
 /// False discovery rate of the shadow filter at a bar before a wall.
@@ -66,6 +70,7 @@ void checkA1(const ExperimentOptions& options);
 void checkA2(const ExperimentOptions& options);
 void checkA3(const ExperimentOptions& options);
 void checkB1(const ExperimentOptions& options);
+void checkB2(const ExperimentOptions& options);
 void checkB3(const ExperimentOptions& options);
 
 /// Processor, threads and memory of this machine, a line each.

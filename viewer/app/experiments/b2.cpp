@@ -1,0 +1,155 @@
+// B2: what each part of the contour-based planner is worth, one changed at a time (evaluation.md, section 4).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "viewer/app/experiments/b1_report.h"
+#include "viewer/app/experiments/experiments.h"
+
+namespace vantage::experiments {
+namespace {
+
+struct Variant {
+  const char* part;  ///< of evaluation.md: "(b)"
+  const char* name;
+  std::vector<std::string> settings;
+};
+
+const std::vector<Variant>& variants() {
+  static const std::vector<Variant> all = {
+      {"-", "as it is", {}},
+      {"(b)", "saliency by roundness only", {"saliency.use_isolation=false"}},
+      {"(b)", "saliency by isolation only", {"saliency.use_roundness=false"}},
+      {"(c)", "B_th 0.005 m", {"saliency.isolation_distance_m=0.005"}},
+      {"(c)", "B_th 0.01 m", {"saliency.isolation_distance_m=0.01"}},
+      {"(c)", "B_th 0.05 m", {"saliency.isolation_distance_m=0.05"}},
+      {"(c)", "B_th 0.1 m", {"saliency.isolation_distance_m=0.1"}},
+      {"(d)", "transparent unknown outside the sphere", {"gain.outside=transparent"}},
+      {"(d)", "gain at full resolution", {"gain.reduction=1"}},
+      {"(e)", "D_th x 0.5", {"contours.group_distance_m=0.01"}},
+      {"(e)", "D_th x 2", {"contours.group_distance_m=0.04"}},
+      {"(e)", "A_th x 0.5", {"contours.group_angle_deg=15"}},
+      {"(e)", "A_th x 2", {"contours.group_angle_deg=60"}},
+      {"(e)", "gain threshold x 0.5", {"gain.threshold=350"}},
+      {"(e)", "gain threshold x 2", {"gain.threshold=1400"}}};
+  return all;
+}
+
+std::vector<RunOf> plannedRuns(const ExperimentOptions& options) {
+  std::vector<RunOf> runs;
+  for (const Variant& variant : variants()) {
+    if (options.quick && std::string(variant.part) != "-" && std::string(variant.part) != "(b)") continue;
+    for (std::uint64_t seed = 1; seed <= options.seeds.value_or(1); ++seed)
+      runs.push_back(
+          {.scene = "tabletop", .seed = seed, .variant = variant.name, .settings = variant.settings});
+  }
+  return runs;
+}
+
+std::vector<const ExplorationRun*> of(const Runs& runs, const std::string& variant) {
+  std::vector<const ExplorationRun*> found;
+  for (const ExplorationRun& run : runs)
+    if (run.run.variant == variant) found.push_back(&run);
+  return found;
+}
+
+/// Highest saliency of a segment that is no object, and lowest among the best segments of the objects, at the
+/// first view.
+std::pair<double, double> noiseAndObjects(const ExplorationRun& run) {
+  std::map<std::string, double> best;
+  double noise = 0.0, least = 1.0;
+  for (const SegmentRow& s : run.nbvs.front().segments) {
+    if (s.object.empty()) noise = std::max(noise, s.saliency);
+    if (!s.object.empty()) best[s.object] = std::max(best[s.object], s.saliency);
+  }
+  for (const auto& [object, saliency] : best) least = std::min(least, saliency);
+  return {noise, best.empty() ? 0.0 : least};
+}
+
+Table resultTable(const Runs& runs) {
+  Table table{"b2",
+              "B2: one part changed at a time, scene S1 (tabletop), proposed",
+              {"part", "variant", "ticks", "U_tau after 5", "U_box after 5", "AUC", "poses scored %", "rays",
+               "most salient non-object", "least salient object", "NBV s"},
+              {}};
+  for (const Variant& variant : variants()) {
+    const auto found = of(runs, variant.name);
+    if (found.empty()) continue;
+    const auto cell = [&](int decimals, const std::function<double(const ExplorationRun&)>& figure) {
+      return spreadOver(found, figure).cell(decimals);
+    };
+    const auto sum = [](const ExplorationRun& run, std::uint64_t NbvResult::*count) {
+      double total = 0.0;
+      for (const NbvResult& nbv : run.nbvs) total += static_cast<double>(nbv.*count);
+      return total;
+    };
+    table.rows.push_back({variant.part, variant.name,
+                          cell(1, [](const ExplorationRun& r) { return double(r.ticks()); }),
+                          cell(0, [](const ExplorationRun& r) { return r.unknown_near_objects.back(); }),
+                          cell(0, [](const ExplorationRun& r) { return r.unknown_in_boxes.back(); }),
+                          cell(0, [](const ExplorationRun& r) { return r.area(); }),
+                          cell(1,
+                               [&](const ExplorationRun& r) {
+                                 const double generated = sum(r, &NbvResult::generated);
+                                 return generated > 0 ? 100 * sum(r, &NbvResult::scored) / generated : 0.0;
+                               }),
+                          cell(0, [&](const ExplorationRun& r) { return sum(r, &NbvResult::rays); }),
+                          cell(3, [](const ExplorationRun& r) { return noiseAndObjects(r).first; }),
+                          cell(3, [](const ExplorationRun& r) { return noiseAndObjects(r).second; }),
+                          cell(2, [](const ExplorationRun& r) { return r.seconds().nbv(); })});
+  }
+  return table;
+}
+
+/// Mean saliency of the most salient non-object under a variant; none if it was not run.
+std::optional<double> noise(const Runs& runs, const char* variant) {
+  const auto found = of(runs, variant);
+  if (found.empty()) return std::nullopt;
+  return spreadOver(found, [](const ExplorationRun& r) { return noiseAndObjects(r).first; }).mean;
+}
+std::optional<double> least(const Runs& runs, const char* variant) {
+  const auto found = of(runs, variant);
+  if (found.empty()) return std::nullopt;
+  return spreadOver(found, [](const ExplorationRun& r) { return noiseAndObjects(r).second; }).mean;
+}
+
+void judge(const Runs& runs, Report& report) {
+  const auto with = noise(runs, "as it is"), roundness = noise(runs, "saliency by roundness only");
+  Claim isolation{"B2 (b)",        "noise ranks lower once isolation is used",
+                  "Fig. 9",        "not run",
+                  Verdict::NotRun, "most salient segment that is no object, at the first view"};
+  if (with && roundness) {
+    isolation.ours = fmt::format("{:.3f}, by roundness only {:.3f}", *with, *roundness);
+    isolation.verdict = passIf(*with < *roundness);
+  }
+  report.claims.push_back(std::move(isolation));
+  const auto small = noise(runs, "B_th 0.005 m"), large = noise(runs, "B_th 0.1 m");
+  Claim distance{"B2 (c)",        "saliency of noise falls with B_th, and an object reaches 0 at 0.1 m",
+                 "Fig. 10",       "not run",
+                 Verdict::NotRun, "the paper's small objects are smaller than those of S1"};
+  if (small && large) {
+    const double object = *least(runs, "B_th 0.1 m");
+    distance.ours = fmt::format("{:.3f} at 0.005 m, {:.3f} at 0.1 m; least object {:.3f} at 0.1 m", *small,
+                                *large, object);
+    distance.verdict = passIf(*large < *small && object < 0.01);
+  }
+  report.claims.push_back(std::move(distance));
+}
+
+}  // namespace
+
+Report runB2(const ExperimentOptions& options) {
+  Report report;
+  const Runs runs = exploreAll("B2", plannedRuns(options), options, report);
+  if (runs.empty()) return report;
+  report.tables = {resultTable(runs)};
+  judge(runs, report);
+  return report;
+}
+
+void checkB2(const ExperimentOptions& options) {
+  for (const RunOf& run : plannedRuns(options)) settingsOf(run, sceneOf(run), options.tune);
+}
+
+}  // namespace vantage::experiments
