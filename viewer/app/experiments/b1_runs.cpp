@@ -30,7 +30,7 @@ NbvSeconds secondsOf(const Timings& t, bool proposed) {
 }
 
 /// What a step decided; the gain that it realised comes later.
-NbvResult nbvOf(const StepRecord& record, bool proposed, const SceneTruth& truth) {
+NbvResult nbvOf(const StepRecord& record, bool proposed, const SceneTruth& truth, const SceneRays& others) {
   NbvResult nbv;
   const ViewSearch& search = *record.search;
   nbv.generated = search.counts.poses_generated;
@@ -40,7 +40,7 @@ NbvResult nbvOf(const StepRecord& record, bool proposed, const SceneTruth& truth
   nbv.visited = search.counts.voxels_visited;
   nbv.seconds = secondsOf(record.timings, proposed);
   if (proposed) {
-    const SegmentObjects objects(record, truth);
+    const SegmentObjects objects(record, truth, others);
     nbv.segments = objects.rows();
     nbv.saliency_check = objects.check();
   }
@@ -54,10 +54,19 @@ NbvResult nbvOf(const StepRecord& record, bool proposed, const SceneTruth& truth
   return nbv;
 }
 
+/// Table, panel, room: all that is no object.
+TriangleMesh meshOfOthers(const SceneFile& scene) {
+  TriangleMesh mesh;
+  for (const Solid& solid : scene.solids)
+    if (solid.role() != SolidRole::Object) appendMesh(solid.mesh(), mesh);
+  return mesh;
+}
+
 /// Takes what is asked of each step while the loop runs.
 class Recorder {
  public:
-  Recorder(ExplorationRun& result, const SceneTruth& truth) : result_(result), truth_(truth) {}
+  Recorder(ExplorationRun& result, const SceneFile& scene, const SceneTruth& truth)
+      : result_(result), truth_(truth), others_(meshOfOthers(scene)) {}
 
   void watch(const StepRecord& record) {
     if (record.stage == Stage::Realised) {
@@ -70,12 +79,13 @@ class Recorder {
         static_cast<double>(record.metrics.unknown_near_objects.value_or(0)));
     result_.unknown_in_boxes.push_back(static_cast<double>(record.metrics.unknown_in_boxes.value_or(0)));
     if (record.metrics.coverage) result_.coverage = *record.metrics.coverage;
-    if (!record.closing) result_.nbvs.push_back(nbvOf(record, result_.run.proposed, truth_));
+    if (!record.closing) result_.nbvs.push_back(nbvOf(record, result_.run.proposed, truth_, others_));
   }
 
  private:
   ExplorationRun& result_;
   const SceneTruth& truth_;
+  SceneRays others_;
 };
 
 /// A run that ended early did not change the map any more.
@@ -154,7 +164,7 @@ ExplorationRun runExploration(const RunOf& run, const std::function<void(Setting
   const SceneTruth truth(scene);
   ExplorationRun result;
   result.run = run;
-  Recorder recorder(result, truth);
+  Recorder recorder(result, scene, truth);
   Explorer explorer(config, camera, robot, &truth);
   explorer.addObserver([&](const std::shared_ptr<const StepRecord>& record) { recorder.watch(*record); });
   result.stop_reason = explorer.run(control).stop_reason;

@@ -14,20 +14,26 @@ constexpr double kOnObject_m = 0.02;
 /// Groups with fewer contour points are not graded (criterion 5).
 constexpr std::size_t kGradedPoints = 6;
 
+/// Object on which a point lies, -1 for none.
+int objectUnder(const Eigen::Vector3d& p, const SceneTruth& truth, const SceneRays& others) {
+  const int object = truth.objectAt(p, kOnObject_m);
+  return object >= 0 && truth.objectDistance(p) <= others.distance(p) ? object : -1;
+}
+
 }  // namespace
 
 std::uint64_t SegmentObjects::Points::onObjects() const {
   return std::accumulate(of_object.begin(), of_object.end(), std::uint64_t{0});
 }
 
-SegmentObjects::SegmentObjects(const StepRecord& record, const SceneTruth& truth)
+SegmentObjects::SegmentObjects(const StepRecord& record, const SceneTruth& truth, const SceneRays& others)
     : record_(record), truth_(truth) {
   const std::vector<Eigen::Vector3f>& points = record.surface->points;
   std::vector<int> object(points.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 1024),
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       for (std::size_t i = range.begin(); i < range.end(); ++i)
-                        object[i] = truth.objectAt(points[i].cast<double>(), kOnObject_m);
+                        object[i] = objectUnder(points[i].cast<double>(), truth, others);
                     });
   by_label_.assign(record.labels->count + 1,
                    Points{0, std::vector<std::uint64_t>(truth.objectNames().size(), 0)});

@@ -3,17 +3,19 @@
 #include <vector>
 
 #include "core/exploration/step_record.h"
+#include "io/scene_rays.h"
 #include "io/scene_truth.h"
 #include "viewer/app/experiments/b1_runs.h"
 
 namespace vantage::experiments {
 
 /// Which true objects the segments of a step lie on: a segment is that of the object on which most of its
-/// points lie, within 2 cm.
+/// points lie. A point lies on an object that is within 2 cm of it and nearer than table, panel and room.
 class SegmentObjects {
  public:
   /// \pre the record holds surface, labels, saliency and search of the contour planner
-  SegmentObjects(const StepRecord& record, const SceneTruth& truth);
+  /// \param others all that is no object
+  SegmentObjects(const StepRecord& record, const SceneTruth& truth, const SceneRays& others);
 
   /// In the order in which they are tried.
   std::vector<SegmentRow> rows() const;
