@@ -93,7 +93,7 @@ TEST_F(InspectorRunsTest, FilteredRunsHaveAStageThatShowsWhatWasRemoved) {
   driver.ui.click("timeline/stage filtered");
   driver.ui.settle();
   EXPECT_TRUE(driver.inspector.preferences().view.layers.has(Layer::FilteredDepth));
-  EXPECT_THAT(driver.ui.words(), HasSubstr("last depth image, removed"));
+  EXPECT_THAT(driver.ui.words(), HasSubstr("last depth image, filtered"));
   EXPECT_THAT(driver.ui.words(), HasSubstr("px removed: shadow"));
   EXPECT_THAT(driver.ui.words(), HasSubstr("px removed: veil"));
   driver.open(run());

@@ -35,9 +35,10 @@ vtkSmartPointer<vtkActor> bodyActor(const Pose& pose) {
 /// Every so many pixels of an image that were kept are drawn in space.
 constexpr int kKeptEvery = 3;
 
-/// Pixels in space: those that were removed, in their filter's colour, and a thin choice of the others.
-void addPixels(const DepthFrame& frame, const PinholeCamera& camera, std::span<const std::uint8_t> mask,
-               const LayerStyle& style, LayerContent& content) {
+/// Pixels in the workspace: those that were removed, in their filter's colour, and a thin choice of the
+/// others.
+void addPixels(const DepthFrame& frame, const PinholeCamera& camera, const Box& workspace,
+               std::span<const std::uint8_t> mask, const LayerStyle& style, LayerContent& content) {
   std::vector<Eigen::Vector3d> kept, removed;
   std::vector<Rgb> colors;
   for (int v = 0; v < frame.depth.height; ++v)
@@ -46,12 +47,15 @@ void addPixels(const DepthFrame& frame, const PinholeCamera& camera, std::span<c
       if (!DepthImage::valid(z)) continue;
       const auto color = removedColor(mask[static_cast<std::size_t>(v) * frame.depth.width + u]);
       if (!color && (u % kKeptEvery != 0 || v % kKeptEvery != 0)) continue;
-      (color ? removed : kept).push_back(frame.T_world_camera * (camera.ray(u, v) * z));
+      const Eigen::Vector3d p_world = frame.T_world_camera * (camera.ray(u, v) * z);
+      if (!workspace.contains(p_world)) continue;  // a far wall says nothing and hides much
+      (color ? removed : kept).push_back(p_world);
       if (color) colors.push_back(*color);
     }
   content.props.push_back(dotActor(kept, {}, palette::kSurface, 2.0 * style.line_scale));
   content.props.push_back(dotActor(removed, colors, palette::kInk, 3.0 * style.line_scale));
-  content.legend.push_back({Mark::Dot, palette::kSurface, 1.0, "pixels that were kept, one of nine"});
+  content.legend.push_back(
+      {Mark::Dot, palette::kSurface, 1.0, "pixels that were kept, one of nine, in the workspace"});
 }
 
 }  // namespace
@@ -97,11 +101,10 @@ LayerContent filteredDepthLayer(const SceneFrame& frame, const LayerStyle& style
   const std::vector<std::uint8_t>& mask = record.filtered->mask;
   const auto [low, high] = depthRange(measured);
   const ColorMap map = mapOf(style, ColorMap::Cividis);
-  content.inset =
-      Inset{"last depth image, removed pixels coloured", filteredPicture(measured, mask, map, low, high),
-            ColorScale{map, "depth, m", low, high, true}};
+  content.inset = Inset{"last depth image, filtered", filteredPicture(measured, mask, map, low, high),
+                        ColorScale{map, "depth, m", low, high, true}};
   if (frame.header.camera.width == measured.width && frame.header.camera.height == measured.height)
-    addPixels(*record.depth, frame.header.camera, mask, style, content);
+    addPixels(*record.depth, frame.header.camera, frame.header.workspace, mask, style, content);
   for (LegendEntry& entry : removedLegend(countMask(mask))) content.legend.push_back(std::move(entry));
   return content;
 }
