@@ -142,6 +142,10 @@ std::vector<Field> plannerFields() {
            AT(exploration.contour.contours.occupied_six_neighbours)),
       flag("contours.unknown_eighteen_neighbours", "ablation: 18 neighbours instead of 6 for unknown (D-B1)",
            AT(exploration.contour.contours.unknown_eighteen_neighbours)),
+      choice<ContourNormal>("contours.normal",
+                            "against which views look: the frontier's, or (ablation) the surface's (D-B5)",
+                            {{"frontier", ContourNormal::Frontier}, {"surface", ContourNormal::Surface}},
+                            AT(exploration.contour.contours.normal)),
       list("views.distances_m", "sensor to contour point, metres (section 5)", 0.01, 100, 16,
            AT(exploration.contour.views.distances_m)),
       angle("views.tilt_deg", "four extra directions from the normal, degrees (D-B6)", 0, 90,
@@ -186,10 +190,17 @@ std::vector<Field> gainFields() {
   return {
       number("gain.sphere_margin_m", "added to the radius of a segment's sphere, metres (section 8)", 0, 100,
              AT(exploration.contour.gain.sphere_margin_m)),
-      number("gain.threshold", "least gain of a view, rays at full resolution (D-B12)", 0, 1e9,
+      number("gain.threshold", "least gain of a view, rays at full resolution or voxels (D-B12)", 0, 1e9,
              AT(exploration.contour.gain.gain_threshold)),
       integer("gain.reduction", "rays are cast at 1/reduction of the resolution per axis (D-B11)", 1, 64,
               AT(exploration.contour.gain.reduction)),
+      choice<GainMeasure>(
+          "gain.count",
+          "what a view gains: rays that end on unknown, the voxels that they end on, or (ablation) all "
+          "unknown "
+          "voxels before the first occupied one (D-B7, D-B8)",
+          {{"rays", GainMeasure::Rays}, {"voxels", GainMeasure::Voxels}, {"volume", GainMeasure::Volume}},
+          AT(exploration.contour.gain.count)),
       choice<OutsideUnknown>(
           "gain.outside", "unknown voxels outside the sphere end a ray or not (D-B9)",
           {{"opaque", OutsideUnknown::Opaque}, {"transparent", OutsideUnknown::Transparent}},

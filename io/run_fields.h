@@ -17,6 +17,10 @@ inline constexpr std::int64_t kEnumCount<Reachability> = kReachabilityCount;
 template <>
 inline constexpr std::int64_t kEnumCount<OutsideUnknown> = 2;
 template <>
+inline constexpr std::int64_t kEnumCount<ContourNormal> = 2;
+template <>
+inline constexpr std::int64_t kEnumCount<GainMeasure> = 3;
+template <>
 inline constexpr std::int64_t kEnumCount<VoxelState> = 3;
 template <>
 inline constexpr std::int64_t kEnumCount<InnerRule> = 2;
@@ -67,7 +71,7 @@ void fields(auto& a, Like<DepthImage> auto& v) {
 // Configuration
 void fields(auto& a, Like<ContourConfig> auto& v) {
   a(v.weight_threshold, v.group_distance_m, v.group_angle_rad, v.occupied_six_neighbours,
-    v.unknown_eighteen_neighbours);
+    v.unknown_eighteen_neighbours);  // v.normal: ContourOptions
 }
 void fields(auto& a, Like<ContourViewConfig> auto& v) {
   a(v.distances_m, v.tilt_rad, v.rolls);
@@ -82,6 +86,7 @@ void fields(auto& a, Like<SaliencyConfig> auto& v) {
 void fields(auto& a, Like<GainConfig> auto& v) {
   a(v.sphere_margin_m, v.gain_threshold, v.reduction, v.outside, v.exclude_executed, v.executed_distance_m,
     v.executed_angle_rad, v.exclude_disappointing, v.disappointing_share, v.disappointing_distance_m);
+  // v.count: ContourOptions
 }
 void fields(auto& a, Like<ContourPlannerConfig> auto& v) {
   a(v.contours, v.views, v.segmentation, v.saliency, v.gain, v.segment_by_segment);
@@ -121,6 +126,15 @@ void fields(auto& a, Like<RunEnd> auto& v) {
 void fields(auto& a, Like<RunHeader> auto& v) {
   a(v.input, v.planner, v.robot, v.command_line, v.version, v.scene_toml, v.config_toml, v.seed, v.threads,
     v.compute, v.camera, v.volume, v.workspace, v.contour_config, v.free_flyer, v.replay);
+}
+/// Options of the contour planner that came after its configuration was laid down, a product of its own.
+/// Older runs have none and were made with the defaults.
+struct ContourOptions {
+  ContourNormal normal = ContourNormal::Frontier;
+  GainMeasure count = GainMeasure::Rays;
+};
+void fields(auto& a, Like<ContourOptions> auto& v) {
+  a(v.normal, v.count);
 }
 /// What the hierarchical planner adds to the header, a product of its own.
 void fields(auto& a, Like<OctreeHeader> auto& v) {

@@ -107,6 +107,17 @@ FetchProduct fetchFrom(Database& database, int step) {
   };
 }
 
+void readContourOptions(Database& database, ContourPlannerConfig& config) {
+  constexpr int kFirstVersion = 3;
+  const auto stored = findRunProduct(database, "contour options");
+  if (!stored && database.number("PRAGMA user_version") >= kFirstVersion)
+    throw DamagedBytes("options of its planner are missing");
+  if (!stored) return;
+  const auto options = openValue<ContourOptions>(*stored, 0);
+  config.contours.normal = options.normal;
+  config.gain.count = options.count;
+}
+
 /// What a run holds.
 struct Contents {
   std::vector<int> steps;
@@ -271,6 +282,7 @@ RunReader::RunReader(const std::filesystem::path& path) : state_(std::make_uniqu
     if (!header || !truth) throw DamagedBytes("it is missing");
     RunHeader h = openValue<RunHeader>(*header, 0);
     h.truth = openValue<TriangleMesh>(*truth, 0);
+    readContourOptions(database, h.contour_config);
     if (const auto octree = findRunProduct(database, "octree"))
       h.octree = openValue<OctreeHeader>(*octree, 0);
     checkHeader(h);

@@ -65,6 +65,8 @@ void createFile(const fs::path& path, const RunHeader& header) {
     insertHeader(database, header);
     putRunProduct(database, storeValue("run", "header", 0, header));
     putRunProduct(database, storeValue("run", "truth", 0, header.truth));
+    const ContourOptions options{header.contour_config.contours.normal, header.contour_config.gain.count};
+    putRunProduct(database, storeValue("run", "contour options", 0, options));
     if (header.octree) putRunProduct(database, storeValue("run", "octree", 0, *header.octree));
     transaction.commit();
   }

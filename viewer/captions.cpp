@@ -159,7 +159,8 @@ std::string viewFigures(const SceneFrame& frame, const LayerStyle& style) {
   if (!record.search) return "No views were evaluated.";
   const ViewSearch& search = *record.search;
   const double threshold = frame.header.contour_config.gain.gain_threshold;
-  const std::string limit = "the threshold of " + grouped(static_cast<std::uint64_t>(threshold)) + " rays";
+  const std::string unit = countUnit(frame);
+  const std::string limit = "the threshold of " + grouped(static_cast<std::uint64_t>(threshold)) + " " + unit;
   if (!search.chosen) {
     std::string text = "No view was chosen: " + plural(search.counts.poses_scored, "pose") + " scored, " +
                        grouped(search.counts.poses_above_threshold) + " above " + limit;
@@ -177,7 +178,8 @@ std::string viewFigures(const SceneFrame& frame, const LayerStyle& style) {
     text += (text.empty() ? "Segment tried first: " : "then ") + searchName(record, chosen.search) + ". ";
   }
   text += "View " + std::to_string(chosen.id) + " gains " + grouped(static_cast<std::uint64_t>(chosen.gain)) +
-          " rays (" + plural(chosen.gain_voxels, "voxel") + "), above " + limit + ".";
+          " " + unit + (unit == "rays" ? " (" + plural(chosen.gain_voxels, "voxel") + ")" : "") + ", above " +
+          limit + ".";
   const std::string refused = segment ? refusals(*segment, threshold) : "";
   if (!refused.empty()) text += " Better views were skipped: " + refused + ".";
   return text + pathText(search);

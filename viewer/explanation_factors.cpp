@@ -123,18 +123,31 @@ ViewFactor rankInSegment(const ExplainedView& view) {
               });
 }
 
+const char* gainText(GainMeasure count) {
+  switch (count) {
+    case GainMeasure::Rays:
+      return "Rays at full resolution that end on unknown inside the region of its segment";
+    case GainMeasure::Voxels:
+      return "Unknown voxels inside the region of its segment on which rays end";
+    case GainMeasure::Volume:
+      return "Unknown voxels inside the region of its segment before anything occupied";
+  }
+  return "";
+}
+
 }  // namespace
 
 std::vector<ViewFactor> contourFactors(const ExplainedView& view) {
   const GainConfig& config = view.frame.header.contour_config.gain;
+  const std::string unit = countUnit(view.frame);
   std::vector<ViewFactor> factors;
   factors.push_back(
       drawn(view, {.name = "gain",
-                   .about = "Rays at full resolution that end on unknown inside the region of its segment",
+                   .about = gainText(config.count),
                    .value = [](const CandidateRow& r) { return std::optional(r.score); },
-                   .text = [](const CandidateRow&, double value) { return withUnit(value, "rays"); },
+                   .text = [unit](const CandidateRow&, double value) { return withUnit(value, unit); },
                    .limit = config.gain_threshold,
-                   .limit_text = "must be more than " + withUnit(config.gain_threshold, "rays")}));
+                   .limit_text = "must be more than " + withUnit(config.gain_threshold, unit)}));
   if (plannerOf(view.frame) != "standard") addSegmentFactors(view, factors);
   factors.push_back(rankInSegment(view));
   factors.push_back(rank(view));

@@ -40,14 +40,19 @@ std::string pendingReason(const ExplainedView& view) {
   return "Undecided: " + segment + " is not scored yet.";
 }
 
+/// "35 248 rays"
+std::string gained(const ExplainedView& view, const CandidateRow& row) {
+  return whole(row.score) + " " + countUnit(view.frame);
+}
+
 std::string contourChosen(const ExplainedView& view) {
   const CandidateRow& row = *view.row;
   const ViewSearch& search = *view.frame.record.search;
   const std::string gain =
-      "of its views that the robot can take this one gains most, " + whole(row.score) + " rays.";
+      "of its views that the robot can take this one gains most, " + gained(view, row) + ".";
   std::string text =
       plannerOf(view.frame) == "standard"
-          ? "Chosen: of all views that the robot can take it gains most, " + whole(row.score) + " rays."
+          ? "Chosen: of all views that the robot can take it gains most, " + gained(view, row) + "."
       : row.group == 0
           ? "Chosen: its segment, " + segmentOf(view, row.group) + ", is the most salient one; " + gain
           : "Chosen: its segment, " + segmentOf(view, row.group) + ", is tried after " +
@@ -57,12 +62,12 @@ std::string contourChosen(const ExplainedView& view) {
   return refused.empty() ? text : text + " Better ones were skipped: " + refused + ".";
 }
 
-std::string sameSegmentReason(const CandidateRow& row, const CandidateRow& chosen) {
+std::string sameSegmentReason(const ExplainedView& view) {
+  const CandidateRow &row = *view.row, &chosen = *view.chosen;
   const std::string start = "Not chosen: the chosen " + named(chosen) + " of the same segment ";
   if (chosen.score == row.score)
-    return start + "gains as much, " + whole(row.score) +
-           " rays; of equal ones the lower number comes first.";
-  return start + "gains more, " + whole(chosen.score) + " rays against " + whole(row.score) + ".";
+    return start + "gains as much, " + gained(view, row) + "; of equal ones the lower number comes first.";
+  return start + "gains more, " + gained(view, chosen) + " against " + whole(row.score) + ".";
 }
 
 std::string laterSegmentReason(const ExplainedView& view) {
@@ -70,7 +75,7 @@ std::string laterSegmentReason(const ExplainedView& view) {
   std::string text = "Not chosen: its segment, " + segmentOf(view, row.group) + ", comes after " +
                      segmentOf(view, chosen.group) + " of the chosen " + named(chosen);
   if (row.score > chosen.score)
-    text += ", though it would gain more, " + whole(row.score) + " rays against " + whole(chosen.score);
+    text += ", though it would gain more, " + gained(view, row) + " against " + whole(chosen.score);
   return text + ".";
 }
 
@@ -123,7 +128,7 @@ std::string contourReason(const ExplainedView& view) {
     case ViewVerdict::Chosen:
       return contourChosen(view);
     case ViewVerdict::Eligible:
-      return view.chosen ? sameSegmentReason(row, *view.chosen)
+      return view.chosen ? sameSegmentReason(view)
                          : "Not chosen yet: it is good enough, but no path was planned so far.";
     case ViewVerdict::LaterSegment:
       return laterSegmentReason(view);
@@ -132,10 +137,10 @@ std::string contourReason(const ExplainedView& view) {
     case ViewVerdict::TakenBefore:
       return takenText(config.executed_distance_m, config.executed_angle_rad);
     case ViewVerdict::Waiting:
-      return "Undecided: it gains " + whole(row.score) +
-             " rays, above the threshold, but a segment that comes before its own is not scored yet.";
+      return "Undecided: it gains " + gained(view, row) +
+             ", above the threshold, but a segment that comes before its own is not scored yet.";
     default:
-      return "Rejected: it gains " + whole(row.score) + " rays, the threshold is " +
+      return "Rejected: it gains " + gained(view, row) + ", the threshold is " +
              whole(config.gain_threshold) + ".";
   }
 }

@@ -46,7 +46,7 @@ ParameterGroup thresholds(bool segments) {
                                       kMm, 0.002, 0.2, 0.0005, 0.02)));
     list.push_back(slider("gain.sphere_margin_m", "", "sphere margin", "cm", kCm, 0.0, 0.5, 0.01, 0.2));
   }
-  list.push_back(slider("gain.threshold", "", "gain threshold", "rays", 1.0, 0.0, 20000.0, 10.0));
+  list.push_back(slider("gain.threshold", "", "gain threshold", "rays or voxels", 1.0, 0.0, 20000.0, 10.0));
   if (segments) {
     list.push_back(slider("saliency.min_points", "", "points of a segment, at least", "", 1.0, 1, 500, 1));
     list.push_back(plain("saliency.use_isolation", "isolation counts"));
@@ -67,7 +67,8 @@ std::vector<ParameterGroup> contourParameters(bool segments) {
         slider("contours.group_distance_m", "D_th", "reach of a group", "mm", kMm, 0.002, 0.1, 0.001),
         slider("contours.group_angle_deg", "A_th", "normals within", "deg", 1.0, 1, 90, 1),
         plain("contours.occupied_six_neighbours", "6 neighbours for occupied"),
-        plain("contours.unknown_eighteen_neighbours", "18 neighbours for unknown")}});
+        plain("contours.unknown_eighteen_neighbours", "18 neighbours for unknown"),
+        plain("contours.normal", "normal that views look against")}});
   if (segments)
     groups.push_back(
         {"Segmentation",
@@ -83,12 +84,13 @@ std::vector<ParameterGroup> contourParameters(bool segments) {
           slider("saliency.max_distance_m", "", "distances kept up to", "cm", kCm, 0.01, 0.5, 0.01),
           slider("segmentation.min_segment_supervoxels", "", "smallest segment, supervoxels", "", 1.0, 0, 30,
                  1)}});
-  groups.push_back({"Views",
-                    {inUnit("m", plain("views.distances_m", "distances", 0.8)),
-                     slider("views.tilt_deg", "", "tilt of directions", "deg", 1.0, 0, 45, 0.5, 15),
-                     slider("views.rolls", "", "rolls", "", 1.0, 1, 16, 1, 8),
-                     slider("gain.reduction", "", "rays: 1/n of the resolution", "", 1.0, 1, 16, 1),
-                     plain("gain.outside", "unknown outside the sphere")}});
+  groups.push_back(
+      {"Views",
+       {inUnit("m", plain("views.distances_m", "distances", 0.8)),
+        slider("views.tilt_deg", "", "tilt of directions", "deg", 1.0, 0, 45, 0.5, 15),
+        slider("views.rolls", "", "rolls", "", 1.0, 1, 16, 1, 8),
+        slider("gain.reduction", "", "rays: 1/n of the resolution", "", 1.0, 1, 16, 1),
+        plain("gain.count", "what is counted"), plain("gain.outside", "unknown outside the sphere")}});
   return groups;
 }
 

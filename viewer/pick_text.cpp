@@ -68,7 +68,7 @@ std::string viewText(const Picked& picked, const StepData& step, const std::vect
     const std::string factors = utilityText(*row);
     return factors.empty() ? text : text + "\n" + factors;
   }
-  text += "\ngain " + whole(row->score) + " rays";
+  text += "\ngain " + whole(row->score) + " " + countUnit(*step.header, *step.record);
   if (row->segment > 0)
     text +=
         format("; segment %u, saliency %.3f, tried ", row->segment, row->saliency) + ordinal(row->group + 1);

@@ -16,7 +16,8 @@ struct RayGroup {
 };
 
 /// Where the rays of one candidate of the contour planner (or its baseline) end, cast at the planner's
-/// resolution with the rays that its score counts.
+/// resolution with the rays that its score counts. With GainMeasure::Volume the score counts more: what lies
+/// behind the voxels given here.
 struct ViewHits {
   std::uint32_t view = 0;  ///< candidate id
   Pose T_world_camera = Pose::Identity();

@@ -87,8 +87,15 @@ std::string refusals(const SegmentSearch& search, double threshold) {
   return text;
 }
 
+std::string countUnit(const RunHeader& header, const StepRecord& record) {
+  const bool octree = record.utilities || (!record.search && header.octree);
+  const bool rays = octree ? !header.octree || header.octree->planner.count == GainCount::Rays
+                           : header.contour_config.gain.count == GainMeasure::Rays;
+  return rays ? "rays" : "voxels";
+}
+
 std::string countUnit(const SceneFrame& frame) {
-  return frame.header.octree && frame.header.octree->planner.count == GainCount::Voxels ? "voxels" : "rays";
+  return countUnit(frame.header, frame.record);
 }
 
 }  // namespace vantage

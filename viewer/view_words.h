@@ -33,7 +33,8 @@ std::string refusalWord(Reachability verdict);
 /// out of reach"; empty if there are none.
 std::string refusals(const SegmentSearch& search, double threshold);
 
-/// What the hierarchical planner counts: "rays" or "voxels".
+/// What the planner of a step counts: "rays" or "voxels".
+std::string countUnit(const RunHeader& header, const StepRecord& record);
 std::string countUnit(const SceneFrame& frame);
 
 }  // namespace vantage

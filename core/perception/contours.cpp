@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <tuple>
 #include <unordered_map>
 
@@ -102,13 +103,32 @@ Eigen::Vector3f frontierNormal(const TsdfVolume& volume, const Eigen::Vector3i& 
   return sum.cast<float>();
 }
 
+/// Eq. (4) at the occupied voxel closest to an empty one, not normalised (D-B5); of equally close ones the
+/// first in (x, y, z) order. Eq. (2) puts one among the 18 neighbours.
+Eigen::Vector3f surfaceNormal(const TsdfVolume& volume, const Eigen::Vector3i& e, int threshold) {
+  std::optional<Eigen::Vector3i> closest;
+  for (int dx = -1; dx <= 1; ++dx) {
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dz = -1; dz <= 1; ++dz) {
+        const Eigen::Vector3i offset(dx, dy, dz);
+        const TsdfVoxel& c = volume.at(e + offset);
+        if (c.weight < threshold || c.value > 0) continue;
+        if (!closest || offset.squaredNorm() < closest->squaredNorm()) closest = offset;
+      }
+    }
+  }
+  return closest ? tsdfGradient(volume, e + *closest) : Eigen::Vector3f::Zero().eval();
+}
+
 void appendRow(const TsdfVolume& volume, const ContourTest& test, const ContourConfig& config, int words,
                int y, int z, std::vector<ContourVoxel>& out) {
   for (int w = 0; w < words; ++w) {
     for (Word bits = test(y, z, w); bits != 0; bits &= bits - 1) {
       ContourVoxel found;
       found.voxel = {64 * w + std::countr_zero(bits), y, z};
-      found.raw_normal = frontierNormal(volume, found.voxel, config.weight_threshold);
+      found.raw_normal = config.normal == ContourNormal::Surface
+                             ? surfaceNormal(volume, found.voxel, config.weight_threshold)
+                             : frontierNormal(volume, found.voxel, config.weight_threshold);
       const float length = found.raw_normal.norm();
       if (!(length > 1e-4f)) continue;  // D-B2: no direction, no contour voxel
       found.normal = found.raw_normal / length;

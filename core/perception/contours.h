@@ -7,6 +7,12 @@
 
 namespace vantage {
 
+/// Which normal a contour voxel gets, against which its views look.
+enum class ContourNormal {
+  Frontier,  ///< eq. (5)-(6): toward well-observed empty space, "view C"
+  Surface    ///< eq. (4) at the closest occupied voxel, "view B" (D-B5): the ablation
+};
+
 /// Contour extraction and reduction (eq. 2, 5-7, Monica & Aleotti 2017).
 struct ContourConfig {
   int weight_threshold = 5;        ///< W_th, observations, 1..1000: a voxel is known from here on
@@ -14,6 +20,7 @@ struct ContourConfig {
   double group_angle_rad = 0.52359877559829887;  ///< A_th, radians in (0, pi]; 30 deg
   bool occupied_six_neighbours = false;          ///< ablation of D-B1: N6 instead of N18 for occupied
   bool unknown_eighteen_neighbours = false;      ///< ablation of D-B1: N18 instead of N6 for unknown
+  ContourNormal normal = ContourNormal::Frontier;
   bool operator==(const ContourConfig&) const = default;
   void validate() const;
 };
@@ -21,8 +28,8 @@ struct ContourConfig {
 /// An empty voxel next to both unknown and occupied space.
 struct ContourVoxel {
   Eigen::Vector3i voxel;
-  Eigen::Vector3f raw_normal;  ///< eq. (5)-(6) before normalisation
-  Eigen::Vector3f normal;      ///< frontier normal, unit, toward well-observed empty space
+  Eigen::Vector3f raw_normal;  ///< eq. (5)-(6), or eq. (4), before normalisation
+  Eigen::Vector3f normal;      ///< unit; the frontier normal points toward well-observed empty space
   std::uint32_t group = 0;     ///< index of its contour point
 };
 

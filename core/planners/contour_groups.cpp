@@ -89,6 +89,7 @@ VisibilityQuery regionQuery(const ViewSearchInput& input, const ContourPlannerCo
                             const SegmentSearch& search) {
   VisibilityQuery query;
   query.outside = config.gain.outside;
+  query.distinct_voxels = config.gain.count == GainMeasure::Voxels;
   if (!config.segment_by_segment) {
     query.bounds = input.workspace;
     return query;
@@ -98,6 +99,7 @@ VisibilityQuery regionQuery(const ViewSearchInput& input, const ContourPlannerCo
   const std::optional<int> bins = marginBins(config.gain.sphere_margin_m);
   const double margin_m = bins ? *bins * kHistogramWidth_m : config.gain.sphere_margin_m;
   query.sphere = Sphere{sphere.center, sphere.radius + margin_m};
+  if (config.gain.count != GainMeasure::Rays) return query;  // histograms are of rays
   query.histogram_bins = kHistogramBins;
   query.histogram_start_m = sphere.radius;
   query.histogram_width_m = kHistogramWidth_m;

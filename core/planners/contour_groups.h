@@ -23,8 +23,8 @@ VisibilityQuery regionQuery(const ViewSearchInput& input, const ContourPlannerCo
 void markExecuted(const ViewSearchInput& input, const ContourPlannerConfig& config,
                   std::vector<PoseScore>& scores);
 
-/// Orders scores by decreasing gain, ties to the lowest id. \pre they ascend by id, and their gains are their
-/// unknown rays times one factor
+/// Orders scores by decreasing gain, ties to the lowest id. \pre they ascend by id, and their gains are what
+/// they count times one factor
 void rankByGain(std::vector<PoseScore>& scores);
 
 /// Positions of a group's poses, ascending; indices into input.positions.

@@ -14,12 +14,22 @@
 
 namespace vantage {
 
+/// What the gain of a pose counts (D-B7, D-B8).
+enum class GainMeasure {
+  Rays,    ///< rays whose first voxel that is not free is unknown and in the region
+  Voxels,  ///< those voxels, each once
+  Volume   ///< every unknown voxel of the region before the first occupied one, each once: rays go through it
+};
+
 /// Scoring and selection (sections 2 and 8).
 struct GainConfig {
   double sphere_margin_m = 0.20;  ///< added to the segment's radius, metres, >= 0
-  double gain_threshold = 700.0;  ///< rays at full resolution (D-B12)
-  int reduction = 4;  ///< 1/reduction of the resolution per axis; gains are scaled by its square (D-B11)
-  OutsideUnknown outside = OutsideUnknown::Opaque;  ///< D-B9
+  double gain_threshold = 700.0;  ///< rays at full resolution (D-B12), or voxels
+  /// 1/reduction of the resolution per axis; gains in rays are scaled by its square (D-B11), those in voxels
+  /// are what the rays that were cast meet.
+  int reduction = 4;
+  GainMeasure count = GainMeasure::Rays;
+  OutsideUnknown outside = OutsideUnknown::Opaque;  ///< D-B9; no matter for GainMeasure::Volume
   bool exclude_executed = true;                     ///< D-B15
   double executed_distance_m = 0.05;                ///< D-B15, metres
   double executed_angle_rad = 0.17453292519943295;  ///< D-B15, radians; 10 deg
@@ -27,6 +37,8 @@ struct GainConfig {
   double disappointing_share = 0.10;                ///< realised / predicted below which D-B33 strikes
   double disappointing_distance_m = 0.05;           ///< D-B33, metres
   bool operator==(const GainConfig&) const = default;
+  /// Gain of one unknown ray or voxel that is counted.
+  double perUnknown() const { return count == GainMeasure::Rays ? double(reduction) * reduction : 1.0; }
   /// \throws std::invalid_argument naming field, value and range.
   void validate() const;
 };
@@ -47,8 +59,8 @@ struct ContourPlannerConfig {
 /// Everything known about one scored pose.
 struct PoseScore {
   std::uint32_t id = 0;        ///< candidate id
-  double gain = 0.0;           ///< rays at full resolution: first-hit unknown rays x reduction^2
-  std::uint32_t unknown = 0;   ///< rays cast that end on unknown inside the sphere (or workspace)
+  double gain = 0.0;           ///< in the measure's unit; rays: `unknown` x reduction^2, voxels: `unknown`
+  std::uint32_t unknown = 0;   ///< rays cast that end on unknown in the sphere (or workspace), or its voxels
   std::uint32_t occupied = 0;  ///< rays cast that end on occupied inside it
   Reachability reachability = Reachability::NotChecked;
   bool executed_before = false;  ///< excluded by D-B15
@@ -70,7 +82,7 @@ struct SegmentSearch {
   /// Per distinct cast: first-hit unknown rays by distance to the sphere centre, bins of kHistogramWidth_m
   /// from the bounding sphere's radius outward, without the margin (bin 0: inside the radius). With opaque
   /// outside, `unknown` under a margin of k bins is the sum of bins 0..k. Poses rolled by half a turn share
-  /// one. None for the baseline.
+  /// one. None for the baseline and for gains in voxels.
   std::vector<std::vector<std::uint32_t>> histograms;
 };
 inline constexpr int kHistogramBins = 52;

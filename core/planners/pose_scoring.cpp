@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/planners/contour_groups.h"
+#include "core/raycasting/volume_caster.h"
 
 namespace vantage {
 namespace {
@@ -20,8 +21,9 @@ struct PositionCounts {
 /// How the rolls of a position share casts (D-B11).
 enum class RollSharing { QuarterTurns, HalfTurns, None };
 
-RollSharing sharingOf(const PinholeCamera& camera, int rolls) {
-  if (rolls % 4 == 0 && sharesQuarterTurnGrid(camera)) return RollSharing::QuarterTurns;
+RollSharing sharingOf(const PinholeCamera& camera, int rolls, GainMeasure measure) {
+  const bool rays = measure == GainMeasure::Rays;  // the shared grid counts them alone
+  if (rays && rolls % 4 == 0 && sharesQuarterTurnGrid(camera)) return RollSharing::QuarterTurns;
   const bool centred = camera.cx == (camera.width - 1) / 2.0 && camera.cy == (camera.height - 1) / 2.0;
   return rolls % 2 == 0 && centred ? RollSharing::HalfTurns : RollSharing::None;
 }
@@ -34,7 +36,8 @@ class PositionCaster {
         views_(config.views),
         camera_(input.camera.reduced(config.gain.reduction)),
         query_(regionQuery(input, config, search)),
-        sharing_(sharingOf(camera_, config.views.rolls)) {}
+        measure_(config.gain.count),
+        sharing_(sharingOf(camera_, config.views.rolls, measure_)) {}
 
   PositionCounts operator()(const ViewPosition& position) const {
     PositionCounts counts;
@@ -64,8 +67,8 @@ class PositionCaster {
   void castEach(const ViewPosition& position, PositionCounts& counts) const {
     const int distinct = sharing_ == RollSharing::HalfTurns ? views_.rolls / 2 : views_.rolls;
     for (int roll = 0; roll < distinct; ++roll) {
-      counts.of_roll.push_back(
-          castUniform(input_.states, camera_, rolledPose(position, roll, views_), query_));
+      const auto cast = measure_ == GainMeasure::Volume ? castThroughUnknown : castUniform;
+      counts.of_roll.push_back(cast(input_.states, camera_, rolledPose(position, roll, views_), query_));
       counts.rays += counts.of_roll.back().rays;
       counts.visited += counts.of_roll.back().visited;
     }
@@ -75,6 +78,7 @@ class PositionCaster {
   const ContourViewConfig& views_;
   PinholeCamera camera_;
   VisibilityQuery query_;
+  GainMeasure measure_;
   RollSharing sharing_;
 };
 
@@ -99,13 +103,14 @@ void appendScores(const ContourPlannerConfig& config, const ViewPosition& positi
                   const PositionCounts& counts, SegmentSearch& search) {
   const auto distinct = static_cast<int>(counts.of_roll.size());
   const auto first_histogram = static_cast<std::int32_t>(search.histograms.size());
+  const bool rays = config.gain.count == GainMeasure::Rays;
   for (int roll = 0; roll < config.views.rolls; ++roll) {
     const VisibilityCounts& c = counts.of_roll[roll % distinct];
     PoseScore score;
     score.id = position.first_id + static_cast<std::uint32_t>(roll);
-    score.unknown = static_cast<std::uint32_t>(c.unknown);
+    score.unknown = static_cast<std::uint32_t>(rays ? c.unknown : c.unknown_voxels);
     score.occupied = static_cast<std::uint32_t>(c.occupied);
-    score.gain = static_cast<double>(c.unknown) * config.gain.reduction * config.gain.reduction;
+    score.gain = score.unknown * config.gain.perUnknown();
     if (!c.histogram.empty()) score.histogram = first_histogram + roll % distinct;
     search.scores.push_back(score);
   }

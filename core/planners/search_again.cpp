@@ -38,6 +38,11 @@ std::vector<std::uint32_t> accumulated(const std::vector<std::vector<std::uint32
   return within;
 }
 
+/// Gains in voxels and those of the baseline have none.
+bool needsHistograms(const ContourPlannerConfig& config) {
+  return config.segment_by_segment && config.gain.count == GainMeasure::Rays;
+}
+
 bool hasHistograms(const SegmentSearch& group) {
   return std::ranges::none_of(group.scores, [](const PoseScore& score) { return score.histogram < 0; });
 }
@@ -46,18 +51,19 @@ void setMargin(const ScoredGroup& kept, int bins, const GainConfig& gain, std::v
   const std::uint32_t* within = kept.unknown_within.data() + static_cast<std::size_t>(bins) * kept.histograms;
   for (PoseScore& score : scores) {
     score.unknown = within[score.histogram];
-    score.gain = static_cast<double>(score.unknown) * gain.reduction * gain.reduction;
+    score.gain = score.unknown * gain.perUnknown();
   }
 }
 
 }  // namespace
 
 bool canSearchAgain(const GainConfig& scored_with, const GainConfig& wanted, bool segment_by_segment) {
-  if (scored_with.reduction != wanted.reduction || scored_with.outside != wanted.outside ||
-      !sameOffer(scored_with, wanted))
+  if (scored_with.reduction != wanted.reduction || scored_with.count != wanted.count ||
+      scored_with.outside != wanted.outside || !sameOffer(scored_with, wanted))
     return false;
   if (!segment_by_segment || scored_with.sphere_margin_m == wanted.sphere_margin_m) return true;
-  return wanted.outside == OutsideUnknown::Opaque && marginBins(wanted.sphere_margin_m).has_value();
+  return wanted.count == GainMeasure::Rays && wanted.outside == OutsideUnknown::Opaque &&
+         marginBins(wanted.sphere_margin_m).has_value();
 }
 
 std::shared_ptr<const ScoredGroup> keepScores(const SegmentSearch& group) {
@@ -86,7 +92,7 @@ std::shared_ptr<const ScoredGroup> scoreGroup(const ViewSearchInput& input,
 ScoredGroups::ScoredGroups(const ViewSearch& search, const ContourPlannerConfig& scored_with)
     : scored_with_(scored_with) {
   for (const SegmentSearch& group : search.segments)
-    if (group.scored && (!scored_with.segment_by_segment || hasHistograms(group))) add(keepScores(group));
+    if (group.scored && (!needsHistograms(scored_with) || hasHistograms(group))) add(keepScores(group));
 }
 
 void ScoredGroups::add(std::shared_ptr<const ScoredGroup> group) {

@@ -12,7 +12,8 @@ namespace vantage {
 
 /// True if searchAgain() can answer for `wanted` from scores made with `scored_with`: they differ at most in
 /// the threshold, in which executed poses are left out (D-B15), and in the sphere's margin. Another margin
-/// needs opaque outside and a whole number of bins, see marginBins(); for the baseline none matters.
+/// needs gains in rays, opaque outside and a whole number of bins, see marginBins(); for the baseline none
+/// matters.
 bool canSearchAgain(const GainConfig& scored_with, const GainConfig& wanted, bool segment_by_segment = true);
 
 /// The scores of one group of contour points, good for every threshold and margin. Immutable once made, so
@@ -23,7 +24,8 @@ struct ScoredGroup {
   std::vector<std::uint32_t> contour_points;
   std::vector<PoseScore> scores;  ///< by ascending id, under the margin that they were made with
   std::uint32_t histograms = 0;   ///< distinct casts
-  /// Unknown rays of cast h within a margin of k bins, at [k * histograms + h]; empty for the baseline.
+  /// Unknown rays of cast h within a margin of k bins, at [k * histograms + h]; empty for the baseline and
+  /// for gains in voxels.
   std::vector<std::uint32_t> unknown_within;
 };
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 #include "core/raycasting/cast_kernel.h"
 
@@ -41,8 +42,17 @@ void walkToStart(const PlainRay<Real>& ray, const int (&step)[3], const Real (&i
   }
 }
 
+template <class Real, class Stops>
+bool stopsAt(Stops& stops, const int (&at)[3], Real t) {
+  if constexpr (std::is_invocable_v<Stops&, int, int, int, Real>)
+    return stops(at[0], at[1], at[2], t);
+  else
+    return stops(at[0], at[1], at[2]);
+}
+
 /// Voxel by voxel along a ray until `stops(i, j, k)` is true inside the grid, the ray ends, or it can no
-/// longer meet the grid. Crossings are taken in the order of (T, axis).
+/// longer meet the grid. Crossings are taken in the order of (T, axis). `stops` may take the parameter of the
+/// entry into the voxel as well.
 template <class Real, class Stops>
 PlainHit<Real> walkPlainly(const int (&size)[3], const PlainRay<Real>& ray, Stops stops) {
   int at[3], step[3];
@@ -66,7 +76,7 @@ PlainHit<Real> walkPlainly(const int (&size)[3], const PlainRay<Real>& ray, Stop
     if (leaving(0) || leaving(1) || leaving(2)) return result;
     if (inside(0) && inside(1) && inside(2)) {
       ++result.visited;
-      if (stops(at[0], at[1], at[2])) {
+      if (stopsAt(stops, at, result.t)) {
         result.hit = true;
         for (int a = 0; a < 3; ++a) result.voxel[a] = at[a];
         return result;

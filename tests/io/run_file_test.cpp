@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "io/error.h"
+#include "io/run_database.h"
 #include "tests/io/run_support.h"
 
 namespace vantage::testing {
@@ -129,6 +130,33 @@ TEST(RunFile, OpensRunsOfTheFirstVersion) {
   ASSERT_FALSE(summaries.empty());
   EXPECT_EQ(summaries[0].poses_scored, 1680u);
   EXPECT_FALSE(summaries[0].utility || summaries[0].box_unknown);
+}
+
+TEST(RunFile, KeepsEveryOptionOfTheContourPlanner) {
+  const TestFolder folder;
+  RunHeader header = randomHeader(5);
+  header.contour_config.contours.normal = ContourNormal::Surface;
+  header.contour_config.gain.count = GainMeasure::Volume;
+  RunWriter(folder / "a.vantage", header).finish("steps done");
+  const RunHeader read = RunReader(folder / "a.vantage").header();
+  EXPECT_EQ(read.contour_config.contours, header.contour_config.contours);
+  EXPECT_EQ(read.contour_config.gain, header.contour_config.gain);
+}
+
+TEST(RunFile, RunsOfTheSecondVersionWereMadeWithTheDefaultOptions) {
+  const TestFolder folder;
+  writeRun(folder / "a.vantage", 5, 2);
+  const auto change = [&](const char* sql) {
+    Database database(folder / "a.vantage", DatabaseMode::Write);
+    database.run(sql);
+  };
+  change("DELETE FROM run_product WHERE name='contour options'");
+  EXPECT_THAT(inputError([&] { RunReader r(folder / "a.vantage"); }), HasSubstr("options of its planner"));
+  change("PRAGMA user_version=2");
+  const RunReader run(folder / "a.vantage");
+  EXPECT_EQ(run.header().contour_config.contours.normal, ContourNormal::Frontier);
+  EXPECT_EQ(run.header().contour_config.gain.count, GainMeasure::Rays);
+  EXPECT_EQ(run.steps(), (std::vector{1, 2}));
 }
 
 TEST(RunFile, GivesBackTheOctreeAsItWasAtEveryStep) {

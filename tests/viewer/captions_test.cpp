@@ -34,6 +34,14 @@ TEST(Captions, SayWhyTheViewWasChosen) {
   EXPECT_THAT(scanFigures(run.frame(), {}), HasSubstr("12 frames"));
 }
 
+TEST(Captions, NameWhatTheGainCounts) {
+  test::SyntheticRun run = test::makeSyntheticRun();
+  run.header.contour_config.gain.count = GainMeasure::Voxels;
+  const std::string text = viewFigures(run.frame(), {});
+  EXPECT_THAT(text, HasSubstr("threshold of 100 voxels"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("rays")));
+}
+
 TEST(Captions, SayWhyNoneWasChosen) {
   const test::SyntheticRun run = test::makeSyntheticRun(false);
   EXPECT_THAT(viewFigures(run.frame(), {}), HasSubstr("No view was chosen"));

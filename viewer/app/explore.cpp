@@ -50,6 +50,23 @@ RunHeader makeHeader(const GlobalOptions& global, const ExploreOptions& options,
   return header;
 }
 
+/// What a gain counts and how (D-B11, D-B12).
+std::string gainText(const GainConfig& gain) {
+  const std::string rays = fmt::format("rays at 1/{} of the resolution", gain.reduction);
+  switch (gain.count) {
+    case GainMeasure::Rays:
+      return fmt::format("gains: first-hit unknown {} x {:g}, threshold {:g} rays", rays, gain.perUnknown(),
+                         gain.gain_threshold);
+    case GainMeasure::Voxels:
+      return fmt::format("gains: first-hit unknown voxels of {}, threshold {:g} voxels", rays,
+                         gain.gain_threshold);
+    case GainMeasure::Volume:
+      return fmt::format("gains: unknown voxels before anything occupied, {}, threshold {:g} voxels", rays,
+                         gain.gain_threshold);
+  }
+  return "";
+}
+
 void announce(const GlobalOptions& global, const ExploreOptions& options, const Settings& settings) {
   const ExplorationConfig& config = settings.exploration;
   const GridGeometry volume =
@@ -59,10 +76,7 @@ void announce(const GlobalOptions& global, const ExploreOptions& options, const 
                           settings.planner(), settings.exploration.steps, volume.size.x(), volume.size.y(),
                           volume.size.z(), volume.voxel_size_m * 1e3, settings.exploration.seed));
   const GainConfig& gain = config.contour.gain;
-  if (config.needsVolume())
-    say(global,
-        fmt::format("gains: first-hit unknown rays at 1/{} of the resolution x {}, threshold {:g} rays",
-                    gain.reduction, gain.reduction * gain.reduction, gain.gain_threshold));
+  if (config.needsVolume()) say(global, gainText(gain));
   const HierarchicalPlannerConfig& rays = config.hierarchical;
   const bool coarse_first =
       std::ranges::find(config.planners, PlannerKind::Hierarchical) != config.planners.end();

@@ -11,6 +11,7 @@
 #include "core/geometry/icosphere.h"
 #include "viewer/layers/layer.h"
 #include "viewer/layers/shapes.h"
+#include "viewer/view_words.h"
 
 namespace vantage {
 namespace {
@@ -52,8 +53,7 @@ double factorOf(const ViewUtility& view, UtilityFactor factor) {
 /// Scale over the survivors of the cascade: from 0 to a round number above the largest.
 ColorScale scaleOf(const SceneFrame& frame, const LayerStyle& style) {
   const UtilityFactor factor = style.utility_factor;
-  const std::string unit =
-      frame.header.octree && frame.header.octree->planner.count == GainCount::Voxels ? "voxels" : "rays";
+  const std::string unit = countUnit(frame);
   ColorScale scale;
   scale.map = mapOf(style);
   double most = 0.0;

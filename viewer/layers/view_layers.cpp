@@ -8,6 +8,7 @@
 
 #include "viewer/layers/layer.h"
 #include "viewer/layers/shapes.h"
+#include "viewer/view_words.h"
 
 namespace vantage {
 namespace {
@@ -93,7 +94,8 @@ LayerContent rankedViewsLayer(const SceneFrame& frame, const LayerStyle& style) 
   if (!colored.pieces.empty()) {
     content.props.push_back(lineActor(colored, palette::kInk, 2.0 * style.line_scale));
     content.scale = ColorScale{
-        mapOf(style), search ? "gain of the view, rays" : "utility: surface factor × distance factor",
+        mapOf(style),
+        search ? "gain of the view, " + countUnit(frame) : "utility: surface factor × distance factor",
         range.low, range.high, false};
     content.legend.push_back(
         {Mark::Line, colorAt(mapOf(style), 0.5), 1.0,

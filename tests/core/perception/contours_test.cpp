@@ -121,6 +121,32 @@ TEST(HalfObservedBox, SurfaceNormalIgnoresUnknownNeighboursByDefault) {
   expectVector(n, 1.0 + 4.5 / 5.12, 0, -2.0 / 5.12, 1e-4);
 }
 
+TEST(HalfObservedBox, ViewBLooksAgainstTheSurfaceAtTheClosestOccupiedVoxel) {
+  const TsdfVolume box = referenceBox();
+  ContourConfig config;
+  config.normal = ContourNormal::Surface;
+  const Contours contours = extractContours(box, config);
+  EXPECT_EQ(indices(contours), indices(extractContours(box, {})));
+  ASSERT_EQ(contours.voxels.size(), 44u);
+  expectVector(at(contours, 26, 20, 17).raw_normal, 1.0 + 4.5 / 5.12, 0, -2.0 / 5.12, 1e-4);
+  for (const ContourVoxel& v : contours.voxels) {
+    EXPECT_NEAR(v.normal.norm(), 1.0, 1e-5);
+    // Bent back toward the first view, against 0 of the frontier normals.
+    EXPECT_LT(v.normal.z(), -0.1);
+  }
+}
+
+TEST(HalfObservedBox, OfTwoOccupiedNeighboursTheCloserOneGivesTheNormal) {
+  TsdfVolume box = referenceBox();
+  const Eigen::Vector3i beside(26, 20, 16);  // shares a face with (26, 20, 17); (25, 20, 16) only an edge
+  box.at(beside) = TsdfVoxel{-6000, 20};
+  ContourConfig config;
+  config.normal = ContourNormal::Surface;
+  const ContourVoxel& voxel = at(extractContours(box, config), 26, 20, 17);
+  const Eigen::Vector3f expected = tsdfGradient(box, beside);
+  expectVector(voxel.raw_normal, expected.x(), expected.y(), expected.z(), 1e-6);
+}
+
 // ---- 12.2 Rounded object
 
 struct RoundedCase {

@@ -2,10 +2,12 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <random>
 
 #include "core/planners/contour_planner.h"
+#include "core/raycasting/volume_caster.h"
 #include "tests/core/planners/two_blocks.h"
 
 namespace vantage {
@@ -125,6 +127,47 @@ TEST(ScoreSegment, GainIsScaledToFullResolution) {
   EXPECT_EQ(half.scores.front().gain, 4.0 * half.scores.front().unknown);
   EXPECT_NEAR(half.scores.front().gain / full.scores.front().gain, 1.0, 0.1);
   EXPECT_LT(quarter_counts.rays, full_counts.rays);
+}
+
+TEST(ScoreSegment, GainsInVoxelsCountEachVoxelOnce) {
+  for (const GainMeasure count : {GainMeasure::Voxels, GainMeasure::Volume}) {
+    for (const std::int32_t segment : {1, -1}) {  // -1: the baseline
+      TwoBlocks world = speckledWorld();
+      world.config.gain.count = count;
+      world.config.gain.reduction = 2;
+      world.config.segment_by_segment = segment >= 0;
+      SearchCounts counts;
+      const SegmentSearch search = scored(world, segment, counts);
+      EXPECT_TRUE(search.histograms.empty());
+      VisibilityQuery query;
+      query.bounds = world.workspace;
+      if (segment >= 0) query = sphereQuery(world, segment, world.config.gain.sphere_margin_m);
+      query.distinct_voxels = true;
+      const auto cast = count == GainMeasure::Volume ? castThroughUnknown : castUniform;
+      double previous = std::numeric_limits<double>::infinity();
+      for (const PoseScore& score : search.scores) {
+        const VisibilityCounts one =
+            cast(world.states, world.camera.reduced(2), poseOf(world, score.id), query);
+        EXPECT_EQ(score.gain, static_cast<double>(one.unknown_voxels)) << score.id;
+        EXPECT_LE(score.gain, previous);
+        previous = score.gain;
+      }
+      ASSERT_FALSE(search.scores.empty());
+      EXPECT_GT(search.scores.front().gain, 50.0);
+    }
+  }
+}
+
+TEST(ScoreSegment, VolumeLooksIntoABlockOfUnknownOnWhichRaysEnd) {
+  TwoBlocks world;
+  SearchCounts counts;
+  const auto best = [&](GainMeasure count) {
+    world.config.gain.count = count;
+    return scored(world, 1, counts).scores.front().gain;
+  };
+  // 10 x 10 x 10 voxels, seen about face-on.
+  EXPECT_NEAR(best(GainMeasure::Voxels), 100, 40);
+  EXPECT_NEAR(best(GainMeasure::Volume), 1000, 10);
 }
 
 TEST(ScoreSegment, RanksByGainThenId) {

@@ -229,6 +229,26 @@ TEST(SearchAgain, BaselineAnswersForEveryThresholdWhateverTheMargin) {
   EXPECT_LT(chosen, 5);
 }
 
+TEST(SearchAgain, AnswersForGainsInVoxelsUnderTheirOwnMarginAlone) {
+  for (const GainMeasure count : {GainMeasure::Voxels, GainMeasure::Volume}) {
+    TwoBlocks world = crowdedWorld();
+    world.config.gain.count = count;
+    const ScoredGroups groups = scoreAll(world);
+    ContourPlannerConfig wanted = world.config;
+    wanted.gain.gain_threshold = 40;
+    const ViewSearch fresh = searchView(world.input(), wanted, moodyRobot(3), {});
+    ASSERT_TRUE(fresh.chosen);
+    const SearchAgain again = searchAgain(world.input(), wanted, groups, moodyRobot(3));
+    EXPECT_FALSE(again.pending);
+    ASSERT_TRUE(again.search.chosen);
+    EXPECT_EQ(again.search.chosen->id, fresh.chosen->id);
+    EXPECT_EQ(again.search.chosen->gain, fresh.chosen->gain);
+    GainConfig wider = wanted.gain;
+    wider.sphere_margin_m = 0.3;
+    EXPECT_FALSE(canSearchAgain(wanted.gain, wider));
+  }
+}
+
 TEST(SearchAgain, RefusesWhatTheScoresDoNotAnswerFor) {
   const GainConfig have;
   const auto allowed = [&](auto change, bool segments = true) {
@@ -248,6 +268,8 @@ TEST(SearchAgain, RefusesWhatTheScoresDoNotAnswerFor) {
   EXPECT_TRUE(allowed([](GainConfig& g) { g.sphere_margin_m = 0.155; }, false));
   EXPECT_FALSE(allowed([](GainConfig& g) { g.reduction = 2; }));
   EXPECT_FALSE(allowed([](GainConfig& g) { g.outside = OutsideUnknown::Transparent; }));
+  EXPECT_FALSE(allowed([](GainConfig& g) { g.count = GainMeasure::Voxels; }));
+  EXPECT_FALSE(allowed([](GainConfig& g) { g.count = GainMeasure::Volume; }));
   EXPECT_FALSE(allowed([](GainConfig& g) { g.exclude_disappointing = true; }));
   GainConfig transparent, wider;
   transparent.outside = wider.outside = OutsideUnknown::Transparent;
