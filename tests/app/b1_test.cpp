@@ -141,9 +141,18 @@ TEST(B1, TablesHoldThePaperBesideOurs) {
   EXPECT_THAT(segments, HasSubstr("jug A"));
   EXPECT_EQ(segments.find("first non-object"), segments.rfind("first non-object")) << "marked once";
   EXPECT_EQ(nbvTable(runs).rows.size(), runs.size() * kNbvs);
-  for (const Table& table :
-       {nbvTable(runs), runTable(runs), phaseTable(runs), tickTable(runs), segmentTable(runs)})
+  for (const Table& table : {nbvTable(runs), phaseTable(runs), tickTable(runs), segmentTable(runs)})
     for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size()) << table.name;
+  Runs with_others = runs;
+  with_others[0].run.series = Series::Exact;
+  with_others[1].run.series = Series::Unseen;
+  const std::vector<Table> tables = runTables(with_others);
+  ASSERT_EQ(tables.size(), 3u);
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    EXPECT_EQ(tables[t].rows.size(), t == 0 ? runs.size() - 2 : 1u) << tables[t].name;
+    for (const auto& row : tables[t].rows) EXPECT_EQ(row.size(), tables[t].columns.size()) << tables[t].name;
+  }
+  EXPECT_EQ(runTables(runs).size(), 1u);
   const auto plots = unknownPlots(runs);
   ASSERT_EQ(plots.size(), 4u);
   EXPECT_EQ(plots[0].series.size(), 2u);

@@ -34,13 +34,18 @@ Report runB1(const ExperimentOptions& options) {
   Report report;
   const Runs runs = exploreAll("B1", plannedRuns(options), options, report);
   if (runs.empty()) return report;
-  report.tables = {nbvTable(runs), runTable(runs), phaseTable(runs), segmentTable(runs), tickTable(runs)};
+  report.tables = {nbvTable(runs)};
+  for (Table& table : runTables(runs)) report.tables.push_back(std::move(table));
+  for (Table& table : std::vector{phaseTable(runs), segmentTable(runs), tickTable(runs)})
+    report.tables.push_back(std::move(table));
   report.lines = unknownPlots(runs);
   judgeB1(runs, report);
+  report.defaults =
+      contourDefaultsUsed(settingsOf(runs.front().run, sceneOf(runs.front().run), options.tune), "B1");
   report.notes.push_back(
-      "B1: sizes and places of the objects are ours, and so are gain threshold, segmentation's constants and "
-      "the scan; "
-      "the robot is a free-flying sensor with a reach of 1.4 m, its motion is modelled.");
+      "B1: sizes and places of the objects are ours; the robot is a free-flying sensor with a reach of 1.4 "
+      "m, "
+      "its motion is modelled.");
   return report;
 }
 

@@ -29,9 +29,11 @@ Spread spreadOver(const std::vector<const ExplorationRun*>& runs,
 /// Scenes in the order of the runs.
 std::vector<std::string> scenesOf(const Runs& runs);
 
-/// A row for each NBV, and one for each run.
+/// A row for each NBV.
 Table nbvTable(const Runs& runs);
-Table runTable(const Runs& runs);
+/// A row for each run: the graded series, those that are printed beside it, and the scenes by somebody who
+/// had not seen the settings; without those that have no runs.
+std::vector<Table> runTables(const Runs& runs);
 /// Tables 1 and 3 of the paper beside ours, of the core series.
 Table phaseTable(const Runs& runs);
 Table tickTable(const Runs& runs);

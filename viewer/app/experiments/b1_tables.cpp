@@ -42,6 +42,20 @@ std::string ticksOf(const ExplorationRun& run) {
   return text;
 }
 
+std::vector<Cell> runRow(const ExplorationRun& r) {
+  return {r.run.scene,
+          std::string(toString(r.run.series)),
+          r.run.method(),
+          count(r.run.seed),
+          ticksOf(r),
+          listed(r.unknown_near_objects),
+          listed(r.unknown_in_boxes),
+          Cell::number(r.area()),
+          Cell::number(100 * r.coverage, 1),
+          Cell::number(r.seconds().nbv(), 3),
+          r.stop_reason};
+}
+
 }  // namespace
 
 std::vector<const ExplorationRun*> select(const Runs& runs, Series series, bool proposed,
@@ -93,20 +107,32 @@ Table nbvTable(const Runs& runs) {
   return table;
 }
 
-Table runTable(const Runs& runs) {
-  Table table{
-      "b1_runs",
-      "B1: runs; U_tau, U_box: unknown voxels near the objects and in their boxes after the initial scan and "
-      "each NBV",
-      {"scene", "series", "method", "seed", "ticks", "U_tau[0..5]", "U_box[0..5]", "AUC", "coverage %",
-       "NBV s", "stop reason"},
-      {}};
-  for (const ExplorationRun& r : runs)
-    table.rows.push_back({r.run.scene, std::string(toString(r.run.series)), r.run.method(), count(r.run.seed),
-                          ticksOf(r), listed(r.unknown_near_objects), listed(r.unknown_in_boxes),
-                          Cell::number(r.area()), Cell::number(100 * r.coverage, 1),
-                          Cell::number(r.seconds().nbv(), 3), r.stop_reason});
-  return table;
+std::vector<Table> runTables(const Runs& runs) {
+  const struct {
+    const char *name, *title;
+    std::vector<Series> series;
+  } parts[] = {{"b1_runs", "B1: runs of the graded series", {Series::Core}},
+               {"b1_series",
+                "B1: runs of the other series: without the panel (open), a sensor with faults behind filters "
+                "(filtered), "
+                "no noise (exact)",
+                {Series::Open, Series::Filtered, Series::Exact}},
+               {"b1_unseen", "B1: scenes by somebody who had not seen the settings", {Series::Unseen}}};
+  std::vector<Table> tables;
+  for (const auto& part : parts) {
+    Table table{
+        part.name,
+        std::string(part.title) +
+            "; U_tau, U_box: unknown voxels near the objects and in their boxes after the initial scan "
+            "and each NBV",
+        {"scene", "series", "method", "seed", "ticks", "U_tau[0..5]", "U_box[0..5]", "AUC", "coverage %",
+         "NBV s", "stop reason"},
+        {}};
+    for (const ExplorationRun& r : runs)
+      if (std::ranges::find(part.series, r.run.series) != part.series.end()) table.rows.push_back(runRow(r));
+    if (!table.rows.empty()) tables.push_back(std::move(table));
+  }
+  return tables;
 }
 
 Table phaseTable(const Runs& runs) {

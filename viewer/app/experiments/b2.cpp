@@ -19,6 +19,7 @@ struct Variant {
 const std::vector<Variant>& variants() {
   static const std::vector<Variant> all = {
       {"-", "as it is", {}},
+      {"(a)", "surface normal (view B)", {"contours.normal=surface"}},
       {"(b)", "saliency by roundness only", {"saliency.use_isolation=false"}},
       {"(b)", "saliency by isolation only", {"saliency.use_roundness=false"}},
       {"(c)", "B_th 0.005 m", {"saliency.isolation_distance_m=0.005"}},
@@ -27,6 +28,9 @@ const std::vector<Variant>& variants() {
       {"(c)", "B_th 0.1 m", {"saliency.isolation_distance_m=0.1"}},
       {"(d)", "transparent unknown outside the sphere", {"gain.outside=transparent"}},
       {"(d)", "gain at full resolution", {"gain.reduction=1"}},
+      // 100 voxels are the faces that 700 rays meet at 0.8 m; behind each lie 34 of the sphere's margin.
+      {"(d)", "gain in voxels", {"gain.count=voxels", "gain.reduction=2", "gain.threshold=100"}},
+      {"(d)", "gain in volume", {"gain.count=volume", "gain.reduction=2", "gain.threshold=3400"}},
       {"(e)", "D_th x 0.5", {"contours.group_distance_m=0.01"}},
       {"(e)", "D_th x 2", {"contours.group_distance_m=0.04"}},
       {"(e)", "A_th x 0.5", {"contours.group_angle_deg=15"}},
@@ -145,6 +149,8 @@ Report runB2(const ExperimentOptions& options) {
   if (runs.empty()) return report;
   report.tables = {resultTable(runs)};
   judge(runs, report);
+  report.defaults =
+      contourDefaultsUsed(settingsOf(runs.front().run, sceneOf(runs.front().run), options.tune), "B2");
   return report;
 }
 

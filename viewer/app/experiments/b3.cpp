@@ -111,10 +111,11 @@ Report runB3(const ExperimentOptions& options) {
   if (seeds.empty()) return report;
   report.tables.push_back(resultTable(seeds));
   judge(seeds, report);
+  report.defaults = filterDefaultsUsed(scene.filters(), "B3");
   report.notes.push_back(
       "B3: the simulated sensor has the faults of a Kinect V2 (wrong depth in the emitter's shadow, veils at "
-      "steps, "
-      "noise that grows with z^2); their models are ours, so only relative reductions mean something.");
+      "steps, noise that grows with z^2); their models are ours, so only relative reductions mean "
+      "something.");
   return report;
 }
 

@@ -16,8 +16,9 @@
 #include "viewer/app/experiments/report.h"
 
 namespace vantage {
+struct DepthFilterConfig;
 struct Settings;
-}
+}  // namespace vantage
 
 namespace vantage::experiments {
 
@@ -79,6 +80,10 @@ std::vector<std::string> machineText();
 /// Defaults that the paper does not give (section 8 of the hierarchical specification), as they were used.
 /// \param where experiment that used them \param simulated the scene is known, not recorded
 std::vector<DefaultUsed> defaultsUsed(const Settings& settings, const std::string& where, bool simulated);
+/// The same of section 10 of the contour-based specification.
+std::vector<DefaultUsed> contourDefaultsUsed(const Settings& settings, const std::string& where);
+/// Constants of the depth filters that the paper does not give.
+std::vector<DefaultUsed> filterDefaultsUsed(const DepthFilterConfig& filter, const std::string& where);
 /// Puts the value that an experiment has of its own. \throws std::logic_error if there is no such default
 void setDefault(std::vector<DefaultUsed>& defaults, const std::string& name, const std::string& value);
 /// Sizes of the objects that were on the table.
