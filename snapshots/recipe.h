@@ -56,6 +56,8 @@ const Recipe& recipeNamed(const std::string& name);
 ///     truth_opacity = 0.5                    # (0, 1]
 ///     surface_opacity = 1.0                  # (0, 1]
 ///     saliency_max = 0.8                     # upper end of the colour scale
+///     saliency_part = "saliency"             # what colours segments: saliency, roundness or isolation alone
+///     isolation_distance_m = 0.05            # B_th of their saliency; default: the run's
 ///     ranked_views = 12                      # 0..500
 ///     unreachable_views = 0                  # 0..500
 ///     frustum_length_m = 0.1

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "viewer/segment_scores.h"
 #include "viewer/view_words.h"
 
 namespace vantage {
@@ -28,6 +29,26 @@ std::string pathText(const Search& search) {
   if (!search.chosen || search.chosen->path.length_m <= 0.0) return "";
   return format(" Path: %.2f m, %s.", search.chosen->path.length_m,
                 search.chosen->path.straight ? "straight" : "around obstacles");
+}
+
+/// The first segments with a saliency that the planner did not take.
+std::string otherSaliencyText(const SceneFrame& frame, const LayerStyle& style) {
+  constexpr std::size_t kNamed = 4;
+  const std::vector<Segment> segments = shownSegments(frame, style);
+  const std::vector<std::uint32_t> order = shownOrder(frame, style);
+  std::string text = "By " + saliencyWords(style) + " they would be tried in this order:";
+  for (std::size_t i = 0; i < std::min(order.size(), kNamed); ++i) {
+    const std::int32_t of_segment = frame.record.search->segments[order[i]].segment;
+    text += i > 0 ? "; no. " : " no. ";
+    text += std::to_string(i + 1);
+    if (of_segment < 0) {
+      text += " (contour points without a segment)";
+      continue;
+    }
+    const Segment& segment = segments[static_cast<std::size_t>(of_segment)];
+    text += " (label " + std::to_string(segment.label) + ", " + fixed(segment.saliency) + ")";
+  }
+  return text + (order.size() > kNamed ? "; ..." : ".");
 }
 
 }  // namespace
@@ -132,7 +153,7 @@ std::string contourFigures(const SceneFrame& frame, const LayerStyle&) {
   return text + ".";
 }
 
-std::string segmentFigures(const SceneFrame& frame, const LayerStyle&) {
+std::string segmentFigures(const SceneFrame& frame, const LayerStyle& style) {
   if (onOctree(frame))
     return "The " + plannerOf(frame) + " planner has no segments: it traces rays in the octree.";
   const StepRecord& record = frame.record;
@@ -143,6 +164,7 @@ std::string segmentFigures(const SceneFrame& frame, const LayerStyle&) {
   }
   std::string text = plural(record.saliency->segments.size(), "segment") + ". ";
   if (!record.search || record.search->segments.empty()) return text + "None has contour points.";
+  if (asksOtherSaliency(style)) return text + otherSaliencyText(frame, style);
   text += "Tried in the order of saliency: ";
   const auto& searches = record.search->segments;
   const std::size_t shown = std::min<std::size_t>(searches.size(), 4);

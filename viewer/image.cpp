@@ -37,26 +37,32 @@ vtkSmartPointer<vtkImageData> toVtk(const RgbImage& image) {
 
 }  // namespace
 
-void writePng(const RgbImage& image, const std::filesystem::path& path) {
-  if (image.empty()) throw std::invalid_argument(path.string() + ": there is no picture to write");
-  std::error_code error;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
-  if (error) refuse(path, error.value());
-  // VTK compresses, we write: its own writer doesn't say why a file could not be written.
+std::string pngBytes(const RgbImage& image) {
+  if (image.empty()) throw std::invalid_argument("there is no picture to write");
   silenceVtk();
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputData(toVtk(image));
   writer->WriteToMemoryOn();
   writer->Write();
   vtkUnsignedCharArray* bytes = writer->GetResult();
-  if (!bytes || bytes->GetNumberOfValues() == 0)
-    throw std::runtime_error(path.string() + ": PNG compression failed");
-  const std::size_t size = static_cast<std::size_t>(bytes->GetNumberOfValues());
+  if (!bytes || bytes->GetNumberOfValues() == 0) throw std::runtime_error("PNG compression failed");
+  return {reinterpret_cast<const char*>(bytes->GetPointer(0)),
+          static_cast<std::size_t>(bytes->GetNumberOfValues())};
+}
+
+void writePng(const RgbImage& image, const std::filesystem::path& path) {
+  if (image.empty()) throw std::invalid_argument(path.string() + ": there is no picture to write");
+  std::error_code error;
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
+  if (error) refuse(path, error.value());
+  // VTK compresses, we write: its own writer doesn't say why a file could not be written.
+  const std::string bytes = pngBytes(image);
 
   errno = 0;
   std::FILE* file = std::fopen(path.c_str(), "wb");
   if (!file) refuse(path, errno);
-  const bool written = std::fwrite(bytes->GetPointer(0), 1, size, file) == size && std::fflush(file) == 0;
+  const bool written =
+      std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() && std::fflush(file) == 0;
   int reason = written ? 0 : errno;
   if (std::fclose(file) != 0 && reason == 0) reason = errno;
   if (reason != 0) {

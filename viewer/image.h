@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace vantage {
@@ -27,6 +28,9 @@ struct RgbImage {
   }
   bool operator==(const RgbImage&) const = default;
 };
+
+/// The picture as a PNG file's bytes. \throws std::invalid_argument for an empty one.
+std::string pngBytes(const RgbImage& image);
 
 /// Writes a PNG; the folder is made if need be. A file that can't be completed is removed.
 /// \throws std::runtime_error naming the file and the system's reason (no such folder, no permission, disk

@@ -1,5 +1,6 @@
 #include "viewer/view_settings.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "core/geometry/check.h"
@@ -40,6 +41,15 @@ constexpr std::array<LayerWords, kLayerCount> kLayers = {{{"workspace", "workspa
                                                           {"filtered-depth", "what the filters removed"}}};
 
 constexpr std::array<std::string_view, 4> kFactors = {"utility", "unknown", "occupied", "distance"};
+constexpr std::array<std::string_view, 3> kParts = {"saliency", "roundness", "isolation"};
+
+/// The value of that name; the names stand in the order of the values.
+template <class Value, std::size_t N>
+std::optional<Value> valueNamed(const std::array<std::string_view, N>& names, std::string_view name) {
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<Value>(found - names.begin());
+}
 
 }  // namespace
 
@@ -48,14 +58,23 @@ std::string_view factorName(UtilityFactor factor) {
 }
 
 std::optional<UtilityFactor> factorNamed(std::string_view name) {
-  for (std::size_t i = 0; i < kFactors.size(); ++i) {
-    if (kFactors[i] == name) return static_cast<UtilityFactor>(i);
-  }
-  return std::nullopt;
+  return valueNamed<UtilityFactor>(kFactors, name);
 }
 
 std::vector<std::string_view> factorNames() {
   return {kFactors.begin(), kFactors.end()};
+}
+
+std::string_view partName(SaliencyPart part) {
+  return kParts[static_cast<std::size_t>(part)];
+}
+
+std::optional<SaliencyPart> partNamed(std::string_view name) {
+  return valueNamed<SaliencyPart>(kParts, name);
+}
+
+std::vector<std::string_view> partNames() {
+  return {kParts.begin(), kParts.end()};
 }
 
 std::string_view layerName(Layer layer) {
@@ -83,6 +102,7 @@ void LayerStyle::validate() const {
   requireInRange("unknown_opacity", unknown_opacity, 0.001, 0.15);
   requireInRange("free_opacity", free_opacity, 0.001, 0.15);
   requireInRange("saliency_max", saliency_max, 1e-6, 1e6);
+  if (isolation_distance_m) requireInRange("isolation_distance_m", *isolation_distance_m, 1e-6, 10.0);
   requireInRange("ranked_views", ranked_views, 0, 500);
   requireInRange("unreachable_views", unreachable_views, 0, 500);
   requireInRange("frustum_length_m", frustum_length_m, 1e-3, 10.0);

@@ -74,6 +74,17 @@ std::string_view factorName(UtilityFactor factor);
 std::optional<UtilityFactor> factorNamed(std::string_view name);
 std::vector<std::string_view> factorNames();
 
+/// What colours the segments (eq. 12).
+enum class SaliencyPart : std::uint8_t {
+  Whole,      ///< saliency as the planner took it
+  Roundness,  ///< d_min / d_max alone
+  Isolation   ///< F alone
+};
+/// `saliency`, `roundness`, `isolation`.
+std::string_view partName(SaliencyPart part);
+std::optional<SaliencyPart> partNamed(std::string_view name);
+std::vector<std::string_view> partNames();
+
 /// A slice through the voxel states.
 struct SlicePlane {
   bool shown = false;
@@ -83,9 +94,13 @@ struct SlicePlane {
 
 /// How layers are drawn.
 struct LayerStyle {
-  double unknown_opacity = 0.15;   ///< of the unknown frontier, (0, 0.15]: what is behind must stay visible
-  double free_opacity = 0.06;      ///< (0, 0.15]
-  double saliency_max = 0.8;       ///< upper end of the saliency scale, the same for all steps, > 0
+  double unknown_opacity = 0.15;  ///< of the unknown frontier, (0, 0.15]: what is behind must stay visible
+  double free_opacity = 0.06;     ///< (0, 0.15]
+  double saliency_max = 0.8;      ///< upper end of the saliency scale, the same for all steps, > 0
+  SaliencyPart saliency_part = SaliencyPart::Whole;
+  /// Segments are coloured and numbered as under this isolation distance B_th, metres, > 0 and at most the
+  /// run's saliency.max_distance_m; empty = the run's.
+  std::optional<double> isolation_distance_m;
   int ranked_views = 24;           ///< best positions that are drawn, 0..500
   int unreachable_views = 12;      ///< better ones that could not be reached, 0..500
   double frustum_length_m = 0.10;  ///< of ranked views, metres

@@ -34,6 +34,9 @@ constexpr std::pair<const char*, int LayerStyle::*> kStyleCounts[] = {
 constexpr std::pair<const char*, std::optional<int> LayerStyle::*> kStyleChoices[] = {
     {"octree_level", &LayerStyle::octree_level}, {"view_id", &LayerStyle::view_id}};
 
+constexpr std::pair<const char*, std::optional<double> LayerStyle::*> kStyleLengths[] = {
+    {"isolation_distance_m", &LayerStyle::isolation_distance_m}};
+
 constexpr std::pair<const char*, double LayerLook::*> kLookNumbers[] = {{"opacity", &LayerLook::opacity},
                                                                         {"size", &LayerLook::size}};
 
@@ -78,12 +81,22 @@ int readCount(SceneTable& table, const char* key, int fallback) {
   return static_cast<int>(count);
 }
 
+[[noreturn]] void refuseName(SceneTable& table, const char* key, const std::string& what,
+                             const std::string& wanted, const std::vector<std::string_view>& names) {
+  const std::vector<std::string> known(names.begin(), names.end());
+  table.fail(key, "there is no " + what + " '" + wanted + "'" + suggestion(wanted, known));
+}
+
 UtilityFactor readFactor(SceneTable& table, UtilityFactor fallback) {
   const std::string wanted = table.text("utility_factor", std::string(factorName(fallback)));
   if (const auto factor = factorNamed(wanted)) return *factor;
-  std::vector<std::string> known;
-  for (const std::string_view name : factorNames()) known.emplace_back(name);
-  table.fail("utility_factor", "there is no factor '" + wanted + "'" + suggestion(wanted, known));
+  refuseName(table, "utility_factor", "factor", wanted, factorNames());
+}
+
+SaliencyPart readPart(SceneTable& table, SaliencyPart fallback) {
+  const std::string wanted = table.text("saliency_part", std::string(partName(fallback)));
+  if (const auto part = partNamed(wanted)) return *part;
+  refuseName(table, "saliency_part", "part of saliency", wanted, partNames());
 }
 
 /// `slices` names those that are shown; the other keys show the one that they place.
@@ -203,7 +216,13 @@ void readStyle(const toml::table& part, const std::string& source, UnknownKeys u
     if (table.has(key)) style.*member = readCount(table, key, 0);
     check(style, table, key);
   }
+  for (const auto& [key, member] : kStyleLengths) {
+    table.accept({key});
+    if (table.has(key)) style.*member = table.number(key);
+    check(style, table, key);
+  }
   style.utility_factor = readFactor(table, style.utility_factor);
+  style.saliency_part = readPart(table, style.saliency_part);
   readColorMap(table, style.color_map);
   readSlices(table, style);
   finish(table, unknown);
@@ -215,7 +234,10 @@ toml::table styleToToml(const LayerStyle& style) {
   for (const auto& [key, member] : kStyleCounts) table.insert(key, style.*member);
   for (const auto& [key, member] : kStyleChoices)
     if (style.*member) table.insert(key, *(style.*member));
+  for (const auto& [key, member] : kStyleLengths)
+    if (style.*member) table.insert(key, *(style.*member));
   table.insert("utility_factor", factorName(style.utility_factor));
+  table.insert("saliency_part", partName(style.saliency_part));
   putColorMap(table, style.color_map);
   std::string shown;
   for (int n = 0; n < 3; ++n) {

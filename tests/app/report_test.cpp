@@ -90,6 +90,49 @@ TEST(ReportFiles, ThePageIsOfOnePieceAndEscapesWhatItShows) {
     EXPECT_NE(html.find(part), std::string::npos) << part;
 }
 
+/// The bytes of a data URI, decoded by somebody else.
+std::string fromBase64(const std::string& text) {
+  const test::TemporaryFolder folder;
+  test::writeFile(folder.path() / "text", text);
+  EXPECT_EQ(
+      test::runProcess({"/bin/sh", "-c", "base64 -d " + (folder / "text") + " > " + (folder / "bytes")}).code,
+      0);
+  return test::readFile(folder.path() / "bytes");
+}
+
+TEST(ReportFiles, PicturesAreInThePageAndBesideIt) {
+  Report report = sampleReport();
+  std::string bytes;
+  for (int i = 0; i < 256; ++i) bytes += static_cast<char>(i);
+  for (const std::size_t length : {256u, 255u, 254u})  // every remainder of three
+    report.pictures.push_back({"p" + std::to_string(length), length == 254 ? "Other" : "Both", "a < b",
+                               "The \"caption\".", bytes.substr(0, length)});
+  const std::string html = reportHtml(report), start = "src=\"data:image/png;base64,";
+  std::vector<std::string> found;
+  for (std::size_t at = html.find(start); at != std::string::npos; at = html.find(start, at + 1)) {
+    const std::size_t begin = at + start.size();
+    found.push_back(fromBase64(html.substr(begin, html.find('"', begin) - begin)));
+  }
+  ASSERT_EQ(found.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(found[i], report.pictures[i].png);
+  EXPECT_NE(html.find("alt=\"a &lt; b: The &quot;caption&quot;.\""), std::string::npos);
+  const auto count = [&](const std::string& part) {
+    std::size_t times = 0;
+    for (std::size_t at = html.find(part); at != std::string::npos; at = html.find(part, at + 1)) ++times;
+    return times;
+  };
+  EXPECT_EQ(count("<div class=\"row\">"), 2u) << "one row a figure";
+  EXPECT_EQ(count("<h2>Both</h2>"), 1u);
+
+  const test::TemporaryFolder folder;
+  EXPECT_EQ(writeReport(report, folder.path()).size(), 7u);
+  EXPECT_EQ(test::readFile(folder.path() / "p255.png"), report.pictures[1].png);
+  EXPECT_EQ(nlohmann::json::parse(reportJson(report))["pictures"][2]["file"], "p254.png");
+  Report whole;
+  whole.append(std::move(report));
+  EXPECT_EQ(whole.pictures.size(), 3u);
+}
+
 TEST(ReportFiles, AreWrittenIntoAFolderThatIsMade) {
   const test::TemporaryFolder folder;
   const auto files = writeReport(sampleReport(), folder.path() / "new" / "deep");

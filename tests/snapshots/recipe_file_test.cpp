@@ -49,6 +49,8 @@ free_opacity = 0.12
 truth_opacity = 0.13
 surface_opacity = 0.14
 saliency_max = 0.5
+saliency_part = "roundness"
+isolation_distance_m = 0.05
 ranked_views = 7
 unreachable_views = 3
 frustum_length_m = 0.2
@@ -79,6 +81,8 @@ height_share = 0.6
   style.truth_opacity = 0.13;
   style.surface_opacity = 0.14;
   style.saliency_max = 0.5;
+  style.saliency_part = SaliencyPart::Roundness;
+  style.isolation_distance_m = 0.05;
   style.ranked_views = 7;
   style.unreachable_views = 3;
   style.frustum_length_m = 0.2;
@@ -147,6 +151,11 @@ TEST_F(RecipeFile, MistakesAreNamedWithFileAndLine) {
               HasSubstr("own.toml:3: camera: there is no focus"));
   EXPECT_THAT(messageOf(good + "[style]\nutility_factor = \"gain\"\n"),
               HasSubstr("own.toml:3: style: there is no factor 'gain'"));
+  EXPECT_THAT(
+      messageOf(good + "[style]\nsaliency_part = \"round\"\n"),
+      HasSubstr("own.toml:3: style: there is no part of saliency 'round'; did you mean 'roundness'?"));
+  EXPECT_THAT(messageOf(good + "[style]\nisolation_distance_m = 0\n"),
+              HasSubstr("own.toml:3: style: isolation_distance_m"));
   EXPECT_THAT(messageOf(good + "[style]\noctree_level = 9\n"), HasSubstr("own.toml:3: style: octree_level"));
   EXPECT_THAT(messageOf(good + "[style]\nview_id = -2\n"), HasSubstr("own.toml:3: style: view_id"));
   EXPECT_THAT(messageOf(good + "camera = 3\n"), HasSubstr("own.toml:2: 'camera' is no table"));

@@ -126,10 +126,14 @@ TEST(Arrange, StyleRebuildsOnlyLayersThatReadTheField) {
   view.style.saliency_max = 0.5;
   scene.arrange(view);
   EXPECT_EQ(scene.timesBuilt(Layer::Segments), 2);
+  view.style.saliency_part = SaliencyPart::Roundness;
+  view.style.isolation_distance_m = 0.05;
+  scene.arrange(view);
+  EXPECT_EQ(scene.timesBuilt(Layer::Segments), 3);
   view.style.ranked_views = 3;
   scene.arrange(view);
   EXPECT_EQ(scene.timesBuilt(Layer::RankedViews), 2);
-  EXPECT_EQ(scene.timesBuilt(Layer::Segments), 2);
+  EXPECT_EQ(scene.timesBuilt(Layer::Segments), 3);
   EXPECT_EQ(scene.timesBuilt(Layer::Occupied), 1);
 }
 

@@ -5,6 +5,7 @@
 
 #include "tests/support/synthetic_record.h"
 #include "viewer/color.h"
+#include "viewer/segment_scores.h"
 #include "viewer/step_data.h"
 
 namespace vantage {
@@ -62,6 +63,39 @@ TEST(Captions, StandardPlannerHasNoSegmentsToSpeakOf) {
   EXPECT_THAT(segmentFigures(run.frame(), {}), HasSubstr("does not use segments"));
   EXPECT_THAT(viewFigures(run.frame(), {}), HasSubstr("scored over the whole workspace. View "));
   EXPECT_THAT(viewFigures(run.frame(), {}), testing::Not(HasSubstr("tried first")));
+}
+
+TEST(Captions, SaySegmentsInTheOrderThatTheStyleAsksFor) {
+  const test::SyntheticRun run = test::makeSyntheticRun();
+  LayerStyle style;
+  EXPECT_THAT(segmentFigures(run.frame(), style), HasSubstr("Tried in the order of saliency: no. 1 (label "));
+  style.saliency_part = SaliencyPart::Isolation;
+  style.isolation_distance_m = 0.05;
+  const std::vector<Segment> segments = shownSegments(run.frame(), style);
+  const std::vector<std::uint32_t> order = shownOrder(run.frame(), style);
+  ASSERT_EQ(order.size(), run.record.search->segments.size());
+  ASSERT_GE(order.size(), 2u);
+  SaliencyConfig config = run.header.contour_config.saliency;
+  config.isolation_distance_m = 0.05;
+  config.use_roundness = false;
+  const Saliency fresh = computeSaliency(*run.record.surface, *run.record.labels, config);
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    EXPECT_DOUBLE_EQ(segments[i].saliency, fresh.segments[i].saliency);
+  double last = 1.0;
+  for (const std::uint32_t group : order) {
+    const std::int32_t segment = run.record.search->segments[group].segment;
+    const double saliency = segment < 0 ? 0.0 : segments[static_cast<std::size_t>(segment)].saliency;
+    EXPECT_LE(saliency, last);
+    last = saliency;
+  }
+  const std::int32_t first = run.record.search->segments[order[0]].segment;
+  ASSERT_GE(first, 0);
+  EXPECT_THAT(segmentFigures(run.frame(), style),
+              HasSubstr("By isolation F, B_th = 5 cm they would be tried in this order: no. 1 (label " +
+                        std::to_string(segments[static_cast<std::size_t>(first)].label)));
+  style.isolation_distance_m = 0.5;
+  EXPECT_THROW(shownSegments(run.frame(), style), std::invalid_argument)
+      << "no distances are kept so far out";
 }
 
 TEST(Captions, EmptyRunHasSentencesToo) {

@@ -30,6 +30,8 @@ Preferences unusual() {
   p.view.style.unknown_opacity = 0.11;
   p.view.style.free_opacity = 0.013;
   p.view.style.saliency_max = 0.61;
+  p.view.style.saliency_part = SaliencyPart::Isolation;
+  p.view.style.isolation_distance_m = 0.07;
   p.view.style.ranked_views = 7;
   p.view.style.unreachable_views = 3;
   p.view.style.frustum_length_m = 0.23;

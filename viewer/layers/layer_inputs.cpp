@@ -40,6 +40,7 @@ enum Field : unsigned {
   kLabels_px = 1 << 11,
   kLines = 1 << 12,
   kColors = 1 << 13,
+  kSaliencyPart = 1 << 14,  ///< and the isolation distance
 };
 
 struct Reads {
@@ -70,9 +71,9 @@ constexpr Reads readsOf(Layer layer) {
     case Layer::SegmentLabels:
       return {kSurface | kLabels | kSaliency | kSearch, kSurfaceOpacity};
     case Layer::Segments:
-      return {kSurface | kLabels | kSaliency, kSurfaceOpacity | kSaliencyMax | kColors};
+      return {kSurface | kLabels | kSaliency, kSurfaceOpacity | kSaliencyMax | kSaliencyPart | kColors};
     case Layer::SegmentRanks:
-      return {kSurface | kLabels | kSaliency | kSearch, kLabels_px};
+      return {kSurface | kLabels | kSaliency | kSearch, kSaliencyPart | kLabels_px};
     case Layer::ContourVoxels:
     case Layer::ContourPoints:
       return {kContours, kLines};
@@ -151,7 +152,8 @@ LayerInputs::LayerInputs(const SceneFrame& frame)
       volume(frame.header.volume),
       workspace(frame.header.workspace),
       views(frame.header.contour_config.views),
-      gain(frame.header.contour_config.gain) {
+      gain(frame.header.contour_config.gain),
+      saliency_config(frame.header.contour_config.saliency) {
   if (!onOctree(frame)) return;
   octree = frame.header.octree->planner;
   object_box = frame.header.octree->object_box;
@@ -163,7 +165,8 @@ bool stillStands(Layer layer, const LayerInputs& a, const LayerInputs& b) {
   return sameRun(a, b) && same(kMap, a.map && a.map == b.map) && same(kTruth, a.truth == b.truth) &&
          same(kScan, a.depth == b.depth && a.step == b.step && a.scan_poses == b.scan_poses) &&
          same(kContours, a.contours == b.contours) && same(kSurface, a.surface == b.surface) &&
-         same(kLabels, a.labels == b.labels) && same(kSaliency, a.saliency == b.saliency) &&
+         same(kLabels, a.labels == b.labels) &&
+         same(kSaliency, a.saliency == b.saliency && a.saliency_config == b.saliency_config) &&
          same(kPositions, a.positions == b.positions) && same(kSearch, a.search == b.search) &&
          same(kUtilities, a.utilities == b.utilities) && same(kGain, a.gain == b.gain && a.views == b.views);
 }
@@ -176,6 +179,8 @@ bool sameStyle(Layer layer, const LayerStyle& a, const LayerStyle& b) {
          same(kTruthOpacity, a.truth_opacity == b.truth_opacity) &&
          same(kSurfaceOpacity, a.surface_opacity == b.surface_opacity) &&
          same(kSaliencyMax, a.saliency_max == b.saliency_max) &&
+         same(kSaliencyPart,
+              a.saliency_part == b.saliency_part && a.isolation_distance_m == b.isolation_distance_m) &&
          same(kBestViews, a.ranked_views == b.ranked_views && a.unreachable_views == b.unreachable_views &&
                               a.frustum_length_m == b.frustum_length_m) &&
          same(kSlices, a.slices == b.slices) && same(kOctreeLevel, a.octree_level == b.octree_level) &&

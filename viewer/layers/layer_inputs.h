@@ -26,6 +26,7 @@ struct LayerInputs {
   Box workspace;
   ContourViewConfig views;
   GainConfig gain;
+  SaliencyConfig saliency_config;
   std::optional<HierarchicalPlannerConfig> octree;
   Box object_box;
 };

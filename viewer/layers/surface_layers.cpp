@@ -6,6 +6,7 @@
 
 #include "viewer/layers/layer.h"
 #include "viewer/layers/shapes.h"
+#include "viewer/segment_scores.h"
 
 namespace vantage {
 namespace {
@@ -21,9 +22,9 @@ bool hasMesh(const StepRecord& record) {
 /// A colour for each label, 0 (no segment) first.
 using LabelColors = std::vector<std::array<std::uint8_t, 3>>;
 
-LabelColors saliencyColors(const Saliency& saliency, const LayerStyle& style) {
-  LabelColors of_label(saliency.segments.size() + 1, palette::kNoSegment.bytes());
-  for (const Segment& segment : saliency.segments) {
+LabelColors saliencyColors(const std::vector<Segment>& segments, const LayerStyle& style) {
+  LabelColors of_label(segments.size() + 1, palette::kNoSegment.bytes());
+  for (const Segment& segment : segments) {
     if (segment.label < of_label.size()) {
       of_label[segment.label] = colorAt(mapOf(style), segment.saliency / style.saliency_max).bytes();
     }
@@ -164,9 +165,12 @@ LayerContent segmentsLayer(const SceneFrame& frame, const LayerStyle& style) {
   LayerContent content;
   const StepRecord& record = frame.record;
   if (!hasSegments(record)) return content;
-  content.props.push_back(segmentActor(record, saliencyColors(*record.saliency, style), style));
-  if (!record.saliency->segments.empty())
-    content.scale = ColorScale{mapOf(style), "saliency of the segment", 0.0, style.saliency_max, true};
+  content.props.push_back(segmentActor(record, saliencyColors(shownSegments(frame, style), style), style));
+  if (!record.saliency->segments.empty()) {
+    const std::string title = asksOtherSaliency(style) ? saliencyWords(style) : "saliency of the segment";
+    // Nothing is more salient than 1.
+    content.scale = ColorScale{mapOf(style), title, 0.0, style.saliency_max, style.saliency_max < 1.0};
+  }
   content.legend.push_back({LegendEntry::Mark::Fill, palette::kNoSegment, 1.0, "surface without a segment"});
   return content;
 }
@@ -175,18 +179,19 @@ LayerContent segmentRanksLayer(const SceneFrame& frame, const LayerStyle& style)
   LayerContent content;
   const StepRecord& record = frame.record;
   if (!record.search || !record.saliency) return content;
-  const auto& searches = record.search->segments;
-  const int numbered = std::min(kRankLabels, static_cast<int>(searches.size()));
+  const std::vector<std::uint32_t> order = shownOrder(frame, style);
+  const int numbered = std::min(kRankLabels, static_cast<int>(order.size()));
   for (int i = numbered - 1; i >= 0; --i) {  // the first one on top
-    if (searches[i].segment < 0 || searches[i].segment >= static_cast<int>(record.saliency->segments.size()))
-      continue;
-    const Segment& segment = record.saliency->segments[searches[i].segment];
+    const std::int32_t of_segment = record.search->segments[order[i]].segment;
+    if (of_segment < 0 || of_segment >= static_cast<int>(record.saliency->segments.size())) continue;
+    const Segment& segment = record.saliency->segments[of_segment];
     content.props.push_back(plateProp(numberPlace(record, segment), std::to_string(i + 1),
                                       style.label_px * (i == 0 ? 1.4 : 1.1), palette::kInk));
   }
   if (!content.props.empty()) {
-    content.legend.push_back(
-        {LegendEntry::Mark::Fill, rgb(255, 255, 255), 1.0, "1 2 3 ...: order in which segments are tried"});
+    content.legend.push_back({LegendEntry::Mark::Fill, rgb(255, 255, 255), 1.0,
+                              asksOtherSaliency(style) ? "1 2 3 ...: order in which segments would be tried"
+                                                       : "1 2 3 ...: order in which segments are tried"});
   }
   return content;
 }

@@ -92,6 +92,11 @@ void styleRows(PanelContext& context) {
     style.unreachable_views = static_cast<int>(barred);
   w.slider("style/frustum length", "frusta, m", style.frustum_length_m, 0.02, 0.5, "%.2f", false, width);
   w.slider("style/saliency max", "saliency scale", style.saliency_max, 0.05, 1.0, "%.2f", false, width);
+  int part = static_cast<int>(style.saliency_part);
+  std::vector<std::string> parts;
+  for (const std::string_view name : partNames()) parts.emplace_back(name);
+  if (w.combo("style/saliency part", "segments by", parts, part, width))
+    style.saliency_part = static_cast<SaliencyPart>(part);
   double level = style.octree_level.value_or(-1);
   if (w.slider("style/octree level", "octree level", level, -1, 8, level < 0 ? "start" : "%.0f", false,
                width)) {

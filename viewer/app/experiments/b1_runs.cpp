@@ -54,14 +54,6 @@ NbvResult nbvOf(const StepRecord& record, bool proposed, const SceneTruth& truth
   return nbv;
 }
 
-/// Table, panel, room: all that is no object.
-TriangleMesh meshOfOthers(const SceneFile& scene) {
-  TriangleMesh mesh;
-  for (const Solid& solid : scene.solids)
-    if (solid.role() != SolidRole::Object) appendMesh(solid.mesh(), mesh);
-  return mesh;
-}
-
 /// Takes what is asked of each step while the loop runs.
 class Recorder {
  public:

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <numeric>
 
 namespace vantage::experiments {
@@ -92,6 +93,26 @@ SaliencyCheck SegmentObjects::check() const {
   check.object_share = share(in_object_segments, on_objects);
   check.object_pose_share = share(object_poses, poses);
   return check;
+}
+
+SaliencyEnds saliencyEnds(const std::vector<SegmentRow>& rows) {
+  std::map<std::string, double> best;  // of each object
+  SaliencyEnds ends;
+  for (const SegmentRow& row : rows) {
+    double& highest = row.object.empty() ? ends.other : best[row.object];
+    highest = std::max(highest, row.saliency);
+  }
+  if (best.empty()) return ends;
+  const auto saliency = [](const auto& object) { return object.second; };
+  ends.object = saliency(*std::ranges::min_element(best, {}, saliency));
+  return ends;
+}
+
+TriangleMesh meshOfOthers(const SceneFile& scene) {
+  TriangleMesh mesh;
+  for (const Solid& solid : scene.solids)
+    if (solid.role() != SolidRole::Object) appendMesh(solid.mesh(), mesh);
+  return mesh;
 }
 
 }  // namespace vantage::experiments

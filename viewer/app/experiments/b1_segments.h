@@ -36,4 +36,15 @@ class SegmentObjects {
   std::vector<Points> by_label_;  ///< index 0 = points without a segment
 };
 
+/// How far objects and everything else are apart.
+struct SaliencyEnds {
+  double other = 0.0;   ///< of the most salient segment that is no object
+  double object = 0.0;  ///< of the least salient object, which is as salient as its best segment
+};
+/// Both 0 where there is no such segment.
+SaliencyEnds saliencyEnds(const std::vector<SegmentRow>& rows);
+
+/// Table, panel, room of a scene: all that is no object.
+TriangleMesh meshOfOthers(const SceneFile& scene);
+
 }  // namespace vantage::experiments

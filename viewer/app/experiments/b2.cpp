@@ -1,10 +1,9 @@
 // B2: what each part of the contour-based planner is worth, one changed at a time (evaluation.md, section 4).
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
-
 #include "viewer/app/experiments/b1_report.h"
+#include "viewer/app/experiments/b1_segments.h"
+#include "viewer/app/experiments/b2_pictures.h"
 #include "viewer/app/experiments/experiments.h"
 
 namespace vantage::experiments {
@@ -58,17 +57,9 @@ std::vector<const ExplorationRun*> of(const Runs& runs, const std::string& varia
   return found;
 }
 
-/// Highest saliency of a segment that is no object, and lowest among the best segments of the objects, at the
-/// first view.
-std::pair<double, double> noiseAndObjects(const ExplorationRun& run) {
-  std::map<std::string, double> best;
-  double noise = 0.0, least = 1.0;
-  for (const SegmentRow& s : run.nbvs.front().segments) {
-    if (s.object.empty()) noise = std::max(noise, s.saliency);
-    if (!s.object.empty()) best[s.object] = std::max(best[s.object], s.saliency);
-  }
-  for (const auto& [object, saliency] : best) least = std::min(least, saliency);
-  return {noise, best.empty() ? 0.0 : least};
+/// At the first view.
+SaliencyEnds saliencyEnds(const ExplorationRun& run) {
+  return saliencyEnds(run.nbvs.front().segments);
 }
 
 Table resultTable(const Runs& runs) {
@@ -99,8 +90,8 @@ Table resultTable(const Runs& runs) {
                                  return generated > 0 ? 100 * sum(r, &NbvResult::scored) / generated : 0.0;
                                }),
                           cell(0, [&](const ExplorationRun& r) { return sum(r, &NbvResult::rays); }),
-                          cell(3, [](const ExplorationRun& r) { return noiseAndObjects(r).first; }),
-                          cell(3, [](const ExplorationRun& r) { return noiseAndObjects(r).second; }),
+                          cell(3, [](const ExplorationRun& r) { return saliencyEnds(r).other; }),
+                          cell(3, [](const ExplorationRun& r) { return saliencyEnds(r).object; }),
                           cell(2, [](const ExplorationRun& r) { return r.seconds().nbv(); })});
   }
   return table;
@@ -110,12 +101,12 @@ Table resultTable(const Runs& runs) {
 std::optional<double> noise(const Runs& runs, const char* variant) {
   const auto found = of(runs, variant);
   if (found.empty()) return std::nullopt;
-  return spreadOver(found, [](const ExplorationRun& r) { return noiseAndObjects(r).first; }).mean;
+  return spreadOver(found, [](const ExplorationRun& r) { return saliencyEnds(r).other; }).mean;
 }
 std::optional<double> least(const Runs& runs, const char* variant) {
   const auto found = of(runs, variant);
   if (found.empty()) return std::nullopt;
-  return spreadOver(found, [](const ExplorationRun& r) { return noiseAndObjects(r).second; }).mean;
+  return spreadOver(found, [](const ExplorationRun& r) { return saliencyEnds(r).object; }).mean;
 }
 
 void judge(const Runs& runs, Report& report) {
@@ -151,6 +142,7 @@ Report runB2(const ExperimentOptions& options) {
   judge(runs, report);
   report.defaults =
       contourDefaultsUsed(settingsOf(runs.front().run, sceneOf(runs.front().run), options.tune), "B2");
+  addSaliencyPictures(options, report);
   return report;
 }
 

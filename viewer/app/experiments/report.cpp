@@ -86,6 +86,7 @@ void Report::append(Report other) {
   moveInto(other.claims, claims);
   moveInto(other.lines, lines);
   moveInto(other.bars, bars);
+  moveInto(other.pictures, pictures);
   mergeDefaults(std::move(other.defaults), defaults);
   moveInto(other.notes, notes);
   moveInto(other.not_run, not_run);
@@ -176,6 +177,11 @@ std::string reportJson(const Report& report) {
   for (const LinePlot& plot : report.lines)
     for (const LinePlot::Series& series : plot.series)
       json["curves"][plot.title][series.label] = series.values;
+  for (const Picture& picture : report.pictures)
+    json["pictures"].push_back({{"figure", picture.figure},
+                                {"title", picture.title},
+                                {"caption", picture.caption},
+                                {"file", picture.name + ".png"}});
   for (const DefaultUsed& d : report.defaults)
     json["defaults"].push_back(
         {{"name", d.name}, {"value", d.value}, {"reason", d.reason}, {"used_by", d.where}});
@@ -195,6 +201,7 @@ std::vector<std::filesystem::path> writeReport(const Report& report, const std::
     saveFile(written.back(), text);
   };
   for (const Table& table : report.tables) save(table.name + ".csv", tableCsv(table));
+  for (const Picture& picture : report.pictures) save(picture.name + ".png", picture.png);
   save("summary.csv", tableCsv(claimTable(report)));
   save("report.json", reportJson(report));
   save("report.html", reportHtml(report));

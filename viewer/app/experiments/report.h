@@ -66,6 +66,15 @@ struct BarPlot {
   std::optional<double> limit;  ///< drawn as a line
 };
 
+/// A picture of a scene beside others of its figure.
+struct Picture {
+  std::string name;     ///< file name without ending, e.g. "b2_saliency"
+  std::string figure;   ///< what it is a part of; neighbours with the same one are shown side by side
+  std::string title;    ///< a few words: what differs from its neighbours
+  std::string caption;  ///< a sentence or two; with the title it stands for the picture to who cannot see it
+  std::string png;      ///< bytes of a PNG file
+};
+
 /// A value that the paper does not give and that was used.
 struct DefaultUsed {
   std::string name, value, reason;
@@ -80,6 +89,7 @@ struct Report {
   std::vector<Claim> claims;
   std::vector<LinePlot> lines;
   std::vector<BarPlot> bars;
+  std::vector<Picture> pictures;
   std::vector<DefaultUsed> defaults;
   std::vector<std::string> notes;
   std::vector<std::string> not_run;  ///< what an interruption left out, e.g. "A1 compact 0.35 m"
@@ -99,7 +109,7 @@ Table defaultTable(const Report& report);
 std::string tableText(const Table& table);
 /// Final summary, defaults and notes as text.
 std::string summaryText(const Report& report);
-/// One self-contained page.
+/// One self-contained page, its pictures included.
 std::string reportHtml(const Report& report);
 std::string reportJson(const Report& report);
 /// A table as CSV; numbers in full, without units.
@@ -109,11 +119,14 @@ std::string tableCsv(const Table& table);
 std::string plotSvg(const LinePlot& plot);
 std::string plotSvg(const BarPlot& plot);
 
+/// The pictures as figures in rows.
+std::string picturesHtml(const std::vector<Picture>& pictures);
+
 /// Text for HTML and SVG.
 std::string escaped(std::string_view text);
 
-/// Writes NAME.csv of every table, report.json and report.html into a folder, which is made if need be.
-/// Returns the paths. \throws InputError, std::runtime_error as saveFile()
+/// Writes NAME.csv of every table, NAME.png of every picture, report.json and report.html into a folder,
+/// which is made if need be. Returns the paths. \throws InputError, std::runtime_error as saveFile()
 std::vector<std::filesystem::path> writeReport(const Report& report, const std::filesystem::path& folder);
 
 }  // namespace vantage::experiments

@@ -14,6 +14,9 @@ th,td{padding:.25rem .6rem;border-bottom:1px solid #ddd;text-align:left;vertical
 th{border-bottom:2px solid #888}td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
 .pass{color:#00644c;font-weight:600}.missed{color:#a33c00;font-weight:600}
 svg{max-width:100%;height:auto;background:#fff}
+.row{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,30rem),1fr));gap:1rem}
+figure{margin:0}figure img{width:100%;height:auto;border:1px solid #ddd;cursor:zoom-in}figcaption{font-size:.85rem}
+figure img:focus{position:fixed;inset:0;margin:auto;width:auto;max-width:100%;max-height:100%;z-index:1;cursor:zoom-out}
 @media(prefers-color-scheme:dark){body{color:#ddd;background:#161616}th,td{border-color:#444}
 .pass{color:#3fd0a4}.missed{color:#ff9a5c}}
 )";
@@ -95,6 +98,7 @@ std::string reportHtml(const Report& report) {
   html += claimsHtml(report);
   for (const BarPlot& plot : report.bars) html += plotSvg(plot);
   for (const LinePlot& plot : report.lines) html += plotSvg(plot);
+  html += picturesHtml(report.pictures);
   for (const Table& table : report.tables) html += tableHtml(table);
   if (!report.defaults.empty()) html += tableHtml(defaultTable(report));
   return html + listHtml("Notes", report.notes) + "</body></html>\n";
