@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "io/scene_file.h"
@@ -11,8 +12,10 @@ namespace {
 
 int listScenes(const GlobalOptions& global) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  std::size_t width = 0;
+  for (const EmbeddedScene& scene : embeddedScenes()) width = std::max(width, scene.name.size());
   for (const EmbeddedScene& scene : embeddedScenes()) {
-    if (global.json != "-") fmt::print("{:<14} {}\n", scene.name, scene.description);
+    if (global.json != "-") fmt::print("{:<{}} {}\n", scene.name, width + 1, scene.description);
     list.push_back({{"name", scene.name}, {"description", scene.description}});
   }
   writeJson(global.json, list);
