@@ -9,6 +9,7 @@
 
 #include "tests/support/process.h"
 #include "viewer/app/experiments/b1_segments.h"
+#include "viewer/app/experiments/b2_normals.h"
 #include "viewer/color.h"
 #include "viewer/image.h"
 
@@ -27,10 +28,15 @@ RgbImage decoded(const std::string& png) {
   return image;
 }
 
+const FirstStep& first() {
+  static const FirstStep step = firstStep({});
+  return step;
+}
+
 const Report& pictures() {
   static const Report report = [] {
     Report made;
-    addSaliencyPictures({}, made);
+    addSaliencyPictures(first(), {}, made);
     return made;
   }();
   return report;
@@ -101,23 +107,30 @@ TEST(SaliencyPictures, ShowWhatTheyClaim) {
   EXPECT_LT(share("b2_saliency_roundness", yellow), 0.1);
 }
 
-TEST(SaliencyPictures, AreLeftOutWithAReasonWhereTheyCannotBe) {
-  Report stopped;
-  stopped.not_run = {"B2: 3 of 5 runs"};
-  addSaliencyPictures({}, stopped);
-  EXPECT_TRUE(stopped.pictures.empty());
-  ASSERT_EQ(stopped.notes.size(), 1u);
-  EXPECT_THAT(stopped.notes[0], HasSubstr("interrupted"));
-
+TEST(SaliencyPictures, StopWhenAskedTo) {
   std::stop_source source;
   source.request_stop();
-  ExperimentOptions options;
-  options.control.stop = source.get_token();
-  Report cancelled;
-  addSaliencyPictures(options, cancelled);
-  EXPECT_TRUE(cancelled.pictures.empty());
-  ASSERT_EQ(cancelled.notes.size(), 1u);
-  EXPECT_THAT(cancelled.notes[0], HasSubstr("interrupted"));
+  RunControl control;
+  control.stop = source.get_token();
+  Report report;
+  EXPECT_THROW(addSaliencyPictures(first(), control, report), Cancelled);
+  EXPECT_TRUE(report.pictures.empty());
+}
+
+TEST(CompareNormals, ViewBGainsLessAtTheBoxesOfS1) {
+  const std::vector<NormalsAtObject> objects = compareNormals(first());
+  ASSERT_EQ(objects.size(), 5u);
+  for (const NormalsAtObject& at : objects) {
+    EXPECT_GT(at.frontier.contour_points, 5u) << at.object;
+    EXPECT_GT(at.frontier.best, 700.0) << at.object;
+    EXPECT_GE(at.frontier.best, at.frontier.mean) << at.object;
+    if (at.object.starts_with("box")) {
+      EXPECT_LT(at.ratio(), 1.0) << at.object;
+    }
+  }
+  EXPECT_EQ(normalsTable(objects).rows.size(), 5u);
+  EXPECT_NE(judgeNormals(objects).verdict, Verdict::NotRun);
+  EXPECT_EQ(judgeNormals({}).verdict, Verdict::NotRun);
 }
 
 /// EGL looks for drivers once a process: this test does in one of its own.
@@ -131,7 +144,7 @@ TEST(SaliencyPictures, AreLeftOutWithAdviceWithoutOpenGl) {
     return;
   }
   Report report;
-  addSaliencyPictures({}, report);
+  addSaliencyPictures({}, {}, report);
   EXPECT_TRUE(report.pictures.empty());
   ASSERT_EQ(report.notes.size(), 1u);
   EXPECT_THAT(report.notes[0], HasSubstr("left out: "));

@@ -44,7 +44,8 @@ TEST(ReproduceB, QuickPrintsEveryTableAndJudgesEveryCriterion) {
       vantage({"reproduce", "B1", "B2", "B3", "B4", "--quick", "-o", folder / "out"});
   ASSERT_EQ(result.code, 0) << result.err;
   const json report = json::parse(readFile(folder.path() / "out/report.json"));
-  for (const char* table : {"b1", "b1_runs", "b1_table1", "b1_table2", "b1_table3", "b2", "b3", "b4"}) {
+  for (const char* table :
+       {"b1", "b1_runs", "b1_table1", "b1_table2", "b1_table3", "b2", "b2_normals", "b3", "b4"}) {
     EXPECT_TRUE(report["tables"].contains(table)) << table;
     EXPECT_FALSE(report["tables"][table]["rows"].empty()) << table;
     EXPECT_TRUE(fs::exists(folder.path() / "out" / (std::string(table) + ".csv"))) << table;
@@ -61,7 +62,7 @@ TEST(ReproduceB, QuickPrintsEveryTableAndJudgesEveryCriterion) {
   }
   for (const char* name :
        {"B1 (1)", "B1 (2a)", "B1 (2b)", "B1 (3a)", "B1 (3b)", "B1 (4a)", "B1 (4b)", "B1 (5)", "B1 (6)",
-        "B2 (b)", "B3 (1)", "B3 (2)", "B3 (3)", "B4 (1)", "B4 (2)", "B4 (3)", "B4 (4)"})
+        "B2 (a)", "B2 (b)", "B3 (1)", "B3 (2)", "B3 (3)", "B4 (1)", "B4 (2)", "B4 (3)", "B4 (4)"})
     EXPECT_THAT(judged, ::testing::Contains(name));
   const std::string page = readFile(folder.path() / "out/report.html");
   for (const char* part : {"Fig. 18", "gain threshold", "bilateral filter", "Table 3"})

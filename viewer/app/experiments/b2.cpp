@@ -3,6 +3,7 @@
 
 #include "viewer/app/experiments/b1_report.h"
 #include "viewer/app/experiments/b1_segments.h"
+#include "viewer/app/experiments/b2_normals.h"
 #include "viewer/app/experiments/b2_pictures.h"
 #include "viewer/app/experiments/experiments.h"
 
@@ -132,6 +133,22 @@ void judge(const Runs& runs, Report& report) {
   report.claims.push_back(std::move(distance));
 }
 
+/// What the first view of S1 shows: (a), and the comparisons of saliency as pictures.
+void addFirstView(const ExperimentOptions& options, Report& report) {
+  const char* what = "B2: normals and pictures at the first view";
+  if (!report.not_run.empty()) return report.not_run.push_back(what);
+  try {
+    options.say(what);
+    const FirstStep first = firstStep(options);
+    const std::vector<NormalsAtObject> objects = compareNormals(first);
+    report.tables.push_back(normalsTable(objects));
+    report.claims.insert(report.claims.begin(), judgeNormals(objects));
+    addSaliencyPictures(first, options.control, report);
+  } catch (const Cancelled&) {
+    report.not_run.push_back(what);
+  }
+}
+
 }  // namespace
 
 Report runB2(const ExperimentOptions& options) {
@@ -142,7 +159,7 @@ Report runB2(const ExperimentOptions& options) {
   judge(runs, report);
   report.defaults =
       contourDefaultsUsed(settingsOf(runs.front().run, sceneOf(runs.front().run), options.tune), "B2");
-  addSaliencyPictures(options, report);
+  addFirstView(options, report);
   return report;
 }
 

@@ -5,13 +5,9 @@
 #include <algorithm>
 #include <iterator>
 
-#include "core/exploration/explorer.h"
 #include "core/gpu/egl_context.h"
-#include "hardware/simulated_depth_camera.h"
-#include "hardware/simulated_robot.h"
-#include "io/scene_truth.h"
 #include "snapshots/recipe.h"
-#include "viewer/app/experiments/b1_segments.h"
+#include "viewer/app/experiments/b2_first_step.h"
 #include "viewer/captions.h"
 #include "viewer/offscreen_renderer.h"
 #include "viewer/segment_scores.h"
@@ -42,44 +38,13 @@ std::vector<Shown> shownPictures() {
   return all;
 }
 
-/// Scene S1 when its first view is chosen, and on which objects the segments lie.
-struct FirstStep {
-  RunHeader header;
-  std::shared_ptr<const StepRecord> record;
-  StateGrid states;              ///< of the map; nothing of it is drawn
-  std::vector<SegmentRow> rows;  ///< one a group of contour points, in the order of ViewSearch::segments
-  SceneFrame frame() const { return {header, *record, states}; }
-};
-
-/// \throws Cancelled
-FirstStep firstStep(const ExperimentOptions& options) {
-  const RunOf run{.scene = "tabletop"};
-  const SceneFile scene = sceneOf(run);
-  Settings settings = settingsOf(run, scene, options.tune);
-  ExplorationConfig& config = settings.exploration;
-  config.steps = 1;
-  SimulatedDepthCamera camera(scene, {settings.camera, settings.sensor, config.seed});
-  FreeFlyer robot(settings.free_flyer, initialScanPoses(config.scan).back());
-  const SceneTruth truth(scene);
-  Explorer explorer(config, camera, robot, &truth);
-  FirstStep first{.header = {}, .record = nullptr, .states = StateGrid(config.volume), .rows = {}};
-  explorer.addObserver([&](const std::shared_ptr<const StepRecord>& record) {
-    if (record->stage == Stage::Done && !record->closing) first.record = record;
-  });
-  explorer.run(options.control);
-  options.control.check();
-  first.header.input = run.scene;
-  first.header.camera = camera.model();
-  first.header.volume = config.volume;
-  first.header.workspace = config.workspace;
-  first.header.contour_config = config.contour;
-  first.rows = SegmentObjects(*first.record, truth, SceneRays(meshOfOthers(scene))).rows();
-  return first;
+SceneFrame frameOf(const FirstStep& first) {
+  return {first.header, *first.record, first.states};
 }
 
 /// With the saliency that a style asks for.
 std::vector<SegmentRow> rowsUnder(const FirstStep& first, const LayerStyle& style) {
-  const std::vector<Segment> segments = shownSegments(first.frame(), style);
+  const std::vector<Segment> segments = shownSegments(frameOf(first), style);
   std::vector<SegmentRow> rows = first.rows;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::int32_t segment = first.record->search->segments[i].segment;
@@ -115,18 +80,17 @@ ViewSettings viewOf(const Shown& shown) {
   return view;
 }
 
-std::vector<Picture> takePictures(const ExperimentOptions& options) {
-  EglContext context;  // first: without it there is nothing to explore for
+std::vector<Picture> takePictures(const FirstStep& first, const RunControl& control) {
+  EglContext context;
   OffscreenRenderer renderer(context);
-  const FirstStep first = firstStep(options);
   Scene scene;
-  scene.setFrame(first.frame());
+  scene.setFrame(frameOf(first));
   std::vector<Picture> pictures;
   for (const Shown& shown : shownPictures()) {
-    options.control.check();
+    control.check();
     const ViewSettings view = viewOf(shown);
     const std::string caption = captionOf(first, shown, view.style);
-    scene.show(view, {shown.title, stepLine(first.frame()), caption}, PageStyle::Full, kWidth, kHeight);
+    scene.show(view, {shown.title, stepLine(frameOf(first)), caption}, PageStyle::Full, kWidth, kHeight);
     pictures.push_back({shown.name, shown.figure, shown.title, caption,
                         pngBytes(renderer.render(scene.renderers(), kWidth, kHeight))});
   }
@@ -135,19 +99,14 @@ std::vector<Picture> takePictures(const ExperimentOptions& options) {
 
 }  // namespace
 
-void addSaliencyPictures(const ExperimentOptions& options, Report& report) {
-  const auto leaveOut = [&](const std::string& why) {
-    report.notes.push_back("B2: the pictures of saliency are left out: " + why);
-  };
-  if (!report.not_run.empty()) return leaveOut("interrupted");
+void addSaliencyPictures(const FirstStep& first, const RunControl& control, Report& report) {
   try {
-    options.say("B2: pictures of saliency");
-    std::vector<Picture> pictures = takePictures(options);
+    std::vector<Picture> pictures = takePictures(first, control);
     std::ranges::move(pictures, std::back_inserter(report.pictures));
   } catch (const Cancelled&) {
-    leaveOut("interrupted");
-  } catch (const std::exception& error) {  // the table is worth more than its pictures
-    leaveOut(error.what());
+    throw;
+  } catch (const std::exception& error) {  // the tables are worth more than the pictures
+    report.notes.push_back(std::string("B2: the pictures of saliency are left out: ") + error.what());
   }
 }
 

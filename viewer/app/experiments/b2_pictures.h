@@ -1,12 +1,11 @@
 #pragma once
 
-#include "viewer/app/experiments/experiments.h"
+#include "viewer/app/experiments/b2_first_step.h"
 
 namespace vantage::experiments {
 
-/// Adds the saliency comparisons of B2 as pictures (Fig. 9 and 10) to its report: scene S1 after the initial
-/// scan with seed 1, which is made here, so that they do not depend on runs that were kept. One camera and
-/// one colour scale, 0 to 1. Where there can be none (interrupted, no OpenGL), a note says why.
-void addSaliencyPictures(const ExperimentOptions& options, Report& report);
+/// Adds the saliency comparisons of B2 as pictures (Fig. 9 and 10) to its report. One camera and one colour
+/// scale, 0 to 1. Where there can be none (no OpenGL), a note says why. \throws Cancelled
+void addSaliencyPictures(const FirstStep& first, const RunControl& control, Report& report);
 
 }  // namespace vantage::experiments
