@@ -10,6 +10,10 @@ mkdir -p snapshots/gallery
 for recipe in segments views; do
   "$vantage" snapshot "$work/tabletop.vantage" --step 1 --recipe "$recipe" -o "snapshots/gallery/$recipe.png" --quiet
 done
+for recipe in counted poses; do
+  "$vantage" snapshot "$work/tabletop.vantage" --step 1 --recipe "$recipe" --size 800x500 \
+    -o "snapshots/gallery/$recipe.png" --quiet
+done
 "$vantage" view "$work/tabletop.vantage" --picture snapshots/gallery/inspector.png --quiet
 "$vantage" explore tabletop --planner hierarchical --steps 1 -o "$work/octree.vantage" --quiet
 for recipe in octree rays utility; do

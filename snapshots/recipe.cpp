@@ -18,6 +18,48 @@ ViewSettings viewOf(LayerSet layers) {
   return view;
 }
 
+/// Near the segment that was tried.
+ViewSettings nearSegment(LayerSet layers) {
+  ViewSettings view;
+  view.layers = layers;
+  view.camera.focus = CameraFocus::Segment;
+  return view;
+}
+
+/// Segments coloured by one factor of their saliency.
+ViewSettings byPart(SaliencyPart part) {
+  ViewSettings view = viewOf({Layer::Segments, Layer::SegmentRanks});
+  view.style.saliency_part = part;
+  view.style.saliency_max = 1.0;
+  return view;
+}
+
+/// How the contour planner comes to its view, stage by stage.
+void addContourDetails(std::vector<Recipe>& all) {
+  ViewSettings normals =
+      nearSegment({Layer::Surface, Layer::ContourVoxels, Layer::ContourPoints, Layer::SurfaceNormals});
+  normals.camera.azimuth_rad = -0.26;  // along the far border of what was scanned from -y
+  normals.camera.zoom = 1.8;
+  ViewSettings poses = nearSegment({Layer::Surface, Layer::ContourVoxels, Layer::ContourPoses});
+  poses.style.frustum_length_m = 0.09;
+  poses.style.surface_opacity = 0.4;  // the frusta stand before it
+  all.push_back({"normals", "Frontier normals and surface normals",
+                 "near the segment that was tried: where views come from by either normal", normals,
+                 normalFigures});
+  all.push_back({"poses", "View poses of a contour point",
+                 "all poses of the contour point that the chosen view looks at", poses, poseFigures});
+  all.push_back({"labels", "Segments",
+                 "the segments, a colour for each, in the order in which they are tried",
+                 viewOf({Layer::SegmentLabels, Layer::SegmentRanks}), segmentFigures});
+  all.push_back({"roundness", "Roundness of the segments", "segments coloured by d_min / d_max alone",
+                 byPart(SaliencyPart::Roundness), segmentFigures});
+  all.push_back({"isolation", "Isolation of the segments", "segments coloured by F alone",
+                 byPart(SaliencyPart::Isolation), segmentFigures});
+  all.push_back({"counted", "What the next best view counts",
+                 "the chosen view, the unknown that it counts and the sphere in which it does",
+                 nearSegment({Layer::Surface, Layer::HitVoxels, Layer::ChosenView}), viewFigures});
+}
+
 std::vector<Recipe> makeRecipes() {
   std::vector<Recipe> all;
   all.push_back({"scene", "Scene and sensor", "the true scene, the sensor and its last depth image",
@@ -37,13 +79,13 @@ std::vector<Recipe> makeRecipes() {
                  viewFigures});
   ViewSettings octree = viewOf({Layer::Octree});
   octree.layers.set(Layer::Workspace, false);
-  octree.camera.object = true;
+  octree.camera.focus = CameraFocus::Object;
   all.push_back(
       {"octree", "Octree", "occupied and unknown nodes at one depth of the octree", octree, octreeFigures});
   ViewSettings rays = viewOf({Layer::Truth, Layer::HitVoxels, Layer::CoarseRays, Layer::RefinedRays});
   rays.style.truth_opacity = 0.15;
   rays.layers.set(Layer::Workspace, false);
-  rays.camera.object = true;
+  rays.camera.focus = CameraFocus::Object;
   all.push_back({"rays", "Rays of the next best view", "coarse rays, refined rays and what they hit", rays,
                  rayFigures});
   all.push_back({"utility", "Utility of the candidate views",
@@ -60,6 +102,7 @@ std::vector<Recipe> makeRecipes() {
                  viewOf({Layer::Segments, Layer::SegmentRanks, Layer::Unknown, Layer::ContourVoxels,
                          Layer::ChosenView, Layer::Path}),
                  viewFigures});
+  addContourDetails(all);
   return all;
 }
 
@@ -87,21 +130,23 @@ std::vector<std::string> recipeNames() {
 }
 
 bool Recipe::fits(PlannerKind planner) const {
-  static constexpr Layer kOnTsdf[] = {Layer::Segments, Layer::SegmentRanks, Layer::ContourVoxels,
-                                      Layer::ContourPoints};
-  static constexpr Layer kOnOctree[] = {Layer::Octree, Layer::UtilitySphere, Layer::HitVoxels,
-                                        Layer::CoarseRays, Layer::RefinedRays};
+  static constexpr Layer kOnTsdf[] = {Layer::Segments,      Layer::SegmentLabels, Layer::SegmentRanks,
+                                      Layer::ContourVoxels, Layer::ContourPoints, Layer::SurfaceNormals,
+                                      Layer::ContourPoses};
+  static constexpr Layer kOnOctree[] = {Layer::Octree, Layer::UtilitySphere, Layer::CoarseRays,
+                                        Layer::RefinedRays};
   const auto shows = [&](Layer layer) { return view.layers.has(layer); };
   return usesOctree(planner) ? std::ranges::none_of(kOnTsdf, shows) : std::ranges::none_of(kOnOctree, shows);
 }
 
 bool Recipe::showsRays() const {
-  static constexpr Layer kOfRays[] = {Layer::HitVoxels, Layer::CoarseRays, Layer::RefinedRays};
+  static constexpr Layer kOfRays[] = {Layer::HitVoxels, Layer::CoarseRays, Layer::RefinedRays,
+                                      Layer::ContourPoses};
   return std::ranges::any_of(kOfRays, [&](Layer layer) { return view.layers.has(layer); });
 }
 
 bool Recipe::foreign(PlannerKind planner) const {
-  static constexpr Figures* kOnTsdf[] = {contourFigures, segmentFigures};
+  static constexpr Figures* kOnTsdf[] = {contourFigures, segmentFigures, normalFigures, poseFigures};
   static constexpr Figures* kOnOctree[] = {octreeFigures, rayFigures, utilityFigures};
   const auto isCaption = [&](Figures* other) { return figures == other; };
   return !fits(planner) && (usesOctree(planner) ? std::ranges::any_of(kOnTsdf, isCaption)

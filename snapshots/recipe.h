@@ -19,7 +19,7 @@ struct Recipe {
   Figures* figures = nullptr;  ///< the sentence under the title
   /// Shows products of planning, which the map after the last scan does not have.
   bool planning() const;
-  /// It shows the rays of a view, so that LayerStyle::view_id means something.
+  /// It shows the rays of a view, or where it comes from, so that LayerStyle::view_id means something.
   bool showsRays() const;
   /// It is about products of the other kind of planner alone, e.g. rays for a step planned on contours.
   bool foreign(PlannerKind planner) const;
@@ -46,8 +46,8 @@ const Recipe& recipeNamed(const std::string& name);
 /// recipes.
 ///
 ///     title = "Below the jugs"               # above the picture; default: the file's name
-///     caption = "states"                     # sentence under the title: scan, states, contours, segments,
-///                                            # views, octree, rays, utility
+///     caption = "states"                     # sentence under the title: scan, filters, states, contours,
+///                                            # normals, poses, segments, views, octree, rays, utility
 ///     layers = ["surface", "unknown"]        # see layerNames(); workspace, axes are layers too
 ///
 ///     [style]
@@ -66,7 +66,7 @@ const Recipe& recipeNamed(const std::string& name);
 ///     slice_x_m = 0.1                        # another slice; also slice_y_m, slice_z_m
 ///     slices = "xy"                          # which of them are shown
 ///     octree_level = 2                       # 0..8: nodes of 2^level voxels; default: where tracing starts
-///     view_id = 17                           # whose rays are drawn; default: the chosen view
+///     view_id = 17                           # whose rays or poses are drawn; default: the chosen view
 ///     coarse_rays = 300                      # how many of them at most
 ///     utility_factor = "utility"             # what colours candidates: utility, unknown, occupied, distance
 ///     label_px = 15
@@ -78,7 +78,9 @@ const Recipe& recipeNamed(const std::string& name);
 ///     elevation_deg = 39                     # above the horizon
 ///     fov_deg = 25                           # vertical aperture
 ///     zoom = 1.0                             # 1: all that must be seen fills the picture
-///     focus = "workspace"                    # what must be seen: workspace, or object (the object's box)
+///     focus = "workspace"                    # what must be seen: workspace, object (its box) or segment
+///     (the tried one's
+///                                            # sphere)
 ///     front_m = 0.2                          # space before the workspace (-y) that must be seen
 ///     height_share = 0.8                     # share of the workspace's height that must be seen
 ///

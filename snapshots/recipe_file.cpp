@@ -15,7 +15,8 @@ namespace vantage {
 namespace {
 
 constexpr std::pair<const char*, Figures*> kCaptions[] = {
-    {"scan", scanFigures},        {"states", stateFigures},   {"contours", contourFigures},
+    {"scan", scanFigures},        {"filters", filterFigures}, {"states", stateFigures},
+    {"contours", contourFigures}, {"normals", normalFigures}, {"poses", poseFigures},
     {"segments", segmentFigures}, {"views", viewFigures},     {"octree", octreeFigures},
     {"rays", rayFigures},         {"utility", utilityFigures}};
 

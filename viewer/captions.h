@@ -26,6 +26,8 @@ Figures scanFigures;     ///< where the scan was taken and what it returned
 Figures filterFigures;   ///< what the depth filters removed of the last image
 Figures stateFigures;    ///< how much is known
 Figures contourFigures;  ///< contours, points, poses
+Figures normalFigures;   ///< how far frontier and surface normals are apart
+Figures poseFigures;     ///< the poses of one contour point
 Figures segmentFigures;  ///< segments in the order in which they are tried
 Figures viewFigures;     ///< why this view was chosen, or why none
 Figures octreeFigures;   ///< nodes at one depth of the octree

@@ -32,6 +32,7 @@ inline constexpr Rgb kSurface = rgb(176, 180, 186);
 inline constexpr Rgb kNoSegment = rgb(150, 150, 150);
 inline constexpr Rgb kContour = rgb(0, 96, 160);
 inline constexpr Rgb kNormal = rgb(190, 30, 90);
+inline constexpr Rgb kSurfaceNormal = rgb(0, 170, 190);
 inline constexpr Rgb kChosen = rgb(214, 20, 70);
 inline constexpr Rgb kPath = rgb(0, 96, 180);
 inline constexpr Rgb kSensor = rgb(40, 44, 52);

@@ -63,16 +63,33 @@ void addLights(vtkRenderer& renderer) {
   renderer.AddLight(sky);
 }
 
+/// What the camera is focused on.
+struct Subject {
+  Box box;
+  bool workspace = false;  ///< it is the whole of it
+};
+
+Subject subjectOf(const SceneFrame& frame, CameraFocus focus) {
+  if (focus == CameraFocus::Object && onOctree(frame) && !frame.header.octree->object_box.isEmpty())
+    return {frame.header.octree->object_box};
+  const SegmentSearch* search = focus == CameraFocus::Segment ? shownSearch(frame.record) : nullptr;
+  if (search && search->sphere.radius > 0.0) {
+    const Eigen::Vector3d half = Eigen::Vector3d::Constant(search->sphere.radius);
+    return {Box(search->sphere.center - half, search->sphere.center + half)};
+  }
+  if (!frame.header.workspace.isEmpty()) return {frame.header.workspace, true};
+  return {Box(Eigen::Vector3d(-1, -1, 0), Eigen::Vector3d(1, 1, 1)), true};
+}
+
 /// What must be seen of a frame and the layers that are shown.
 std::vector<Eigen::Vector3d> mustSee(const SceneFrame& frame, const CameraView& camera,
                                      const std::vector<const LayerContent*>& shown) {
-  const bool on_object = camera.object && onOctree(frame) && !frame.header.octree->object_box.isEmpty();
-  const Box& workspace = on_object ? frame.header.octree->object_box : frame.header.workspace;
-  const Box box = workspace.isEmpty() ? Box(Eigen::Vector3d(-1, -1, 0), Eigen::Vector3d(1, 1, 1)) : workspace;
-  Box seen = box;
-  const bool known_scene = frame.truth && !frame.truth->empty() && !on_object;
+  const Subject subject = subjectOf(frame, camera.focus);
+  Box seen = subject.box;
+  const bool known_scene = subject.workspace && frame.truth && !frame.truth->empty();
   seen.min().y() -= camera.front_m.value_or(known_scene ? 0.2 : 0.0);
-  seen.max().z() = seen.min().z() + camera.height_share.value_or(known_scene ? 0.8 : 1.0) * box.sizes().z();
+  seen.max().z() =
+      seen.min().z() + camera.height_share.value_or(known_scene ? 0.8 : 1.0) * subject.box.sizes().z();
   std::vector<Eigen::Vector3d> points;
   for (int c = 0; c < 8; ++c) points.push_back(seen.corner(static_cast<Box::CornerType>(c)));
   for (const LayerContent* content : shown)

@@ -11,21 +11,6 @@
 namespace vantage {
 namespace {
 
-/// Id of the view whose rays are shown.
-std::optional<std::uint32_t> shownView(const SceneFrame& frame, const LayerStyle& style) {
-  const std::size_t candidates = frame.record.positions->size() * rollsOf(frame.header);
-  if (style.view_id) {
-    if (static_cast<std::size_t>(*style.view_id) >= candidates)
-      throw InputError("view_id = " + std::to_string(*style.view_id),
-                       "is no candidate of step " + std::to_string(frame.record.step) + "; allowed: 0 .. " +
-                           std::to_string(candidates - 1));
-    return static_cast<std::uint32_t>(*style.view_id);
-  }
-  if (frame.record.search->chosen) return frame.record.search->chosen->id;
-  const SegmentSearch* search = shownSearch(frame.record);
-  return search && !search->scores.empty() ? std::optional(search->scores.front().id) : std::nullopt;
-}
-
 void add(RayGroup& group, std::size_t voxel) {
   ++group.rays;
   group.voxels.push_back(voxel);
@@ -69,9 +54,23 @@ double leavesAt(const Box& box, const Eigen::Vector3d& origin, const Eigen::Vect
   return leave < enter ? -1.0 : leave;
 }
 
+std::optional<std::uint32_t> shownView(const SceneFrame& frame, const LayerStyle& style) {
+  if (!frame.record.search || !frame.record.positions || frame.record.positions->empty()) return std::nullopt;
+  const std::size_t candidates = frame.record.positions->size() * rollsOf(frame.header);
+  if (style.view_id) {
+    if (static_cast<std::size_t>(*style.view_id) >= candidates)
+      throw InputError("view_id = " + std::to_string(*style.view_id),
+                       "is no candidate of step " + std::to_string(frame.record.step) + "; allowed: 0 .. " +
+                           std::to_string(candidates - 1));
+    return static_cast<std::uint32_t>(*style.view_id);
+  }
+  if (frame.record.search->chosen) return frame.record.search->chosen->id;
+  const SegmentSearch* search = shownSearch(frame.record);
+  return search && !search->scores.empty() ? std::optional(search->scores.front().id) : std::nullopt;
+}
+
 std::optional<ViewHits> castView(const SceneFrame& frame, const LayerStyle& style) {
   const StepRecord& record = frame.record;
-  if (!record.search || !record.positions || record.positions->empty()) return std::nullopt;
   const auto id = shownView(frame, style);
   const auto group = id ? groupOf(frame, *id) : std::nullopt;
   if (!group) return std::nullopt;

@@ -30,9 +30,12 @@ struct ViewHits {
   RayGroup too_near;        ///< aim at it and end nearer than the camera sees
 };
 
-/// The rays of the style's view, else of the chosen one, else of the best that was scored; nothing for steps
-/// of other planners, without candidates or without a region for the view. \throws InputError naming the
-/// range if the style asks for a view that is no candidate.
+/// The candidate that a picture of one view is about: the style's, else the chosen one, else the best that
+/// was scored; nothing for steps of other planners or without candidates. \throws InputError naming the range
+/// if the style asks for a view that is no candidate.
+std::optional<std::uint32_t> shownView(const SceneFrame& frame, const LayerStyle& style);
+
+/// The rays of shownView(); nothing without one or without a region for it. \throws InputError as shownView()
 std::optional<ViewHits> castView(const SceneFrame& frame, const LayerStyle& style);
 
 /// Distance at which a ray leaves a ball or a box for good; negative if it never enters it. \param direction

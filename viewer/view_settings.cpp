@@ -27,6 +27,8 @@ constexpr std::array<LayerWords, kLayerCount> kLayers = {{{"workspace", "workspa
                                                           {"segment-ranks", "order of the segments"},
                                                           {"contour-voxels", "contour voxels"},
                                                           {"contour-points", "contour points"},
+                                                          {"surface-normals", "surface normals"},
+                                                          {"contour-poses", "poses of a contour point"},
                                                           {"candidates", "candidate positions"},
                                                           {"utility-sphere", "utility of candidates"},
                                                           {"hit-voxels", "voxels that a view counts"},
@@ -41,6 +43,7 @@ constexpr std::array<LayerWords, kLayerCount> kLayers = {{{"workspace", "workspa
                                                           {"filtered-depth", "what the filters removed"}}};
 
 constexpr std::array<std::string_view, 4> kFactors = {"utility", "unknown", "occupied", "distance"};
+constexpr std::array<std::string_view, 3> kFocuses = {"workspace", "object", "segment"};
 constexpr std::array<std::string_view, 3> kParts = {"saliency", "roundness", "isolation"};
 
 /// The value of that name; the names stand in the order of the values.
@@ -63,6 +66,18 @@ std::optional<UtilityFactor> factorNamed(std::string_view name) {
 
 std::vector<std::string_view> factorNames() {
   return {kFactors.begin(), kFactors.end()};
+}
+
+std::string_view focusName(CameraFocus focus) {
+  return kFocuses[static_cast<std::size_t>(focus)];
+}
+
+std::optional<CameraFocus> focusNamed(std::string_view name) {
+  return valueNamed<CameraFocus>(kFocuses, name);
+}
+
+std::vector<std::string_view> focusNames() {
+  return {kFocuses.begin(), kFocuses.end()};
 }
 
 std::string_view partName(SaliencyPart part) {

@@ -29,21 +29,23 @@ enum class Layer : std::uint8_t {
   Segments,       ///< the same, coloured by saliency of its segments
   SegmentRanks,   ///< the order in which segments are tried, as numbers beside them
   ContourVoxels,
-  ContourPoints,  ///< with their normals
-  Candidates,     ///< positions of all candidate views
-  UtilitySphere,  ///< utility of the hierarchical planner's candidates, on their sphere
-  HitVoxels,      ///< what a view's score counts: unknown voxels; on the octree also known ones and nodes
-  Occluders,      ///< what ends the rays of a view and is not counted as unknown, hatched
-  CoarseRays,     ///< rays of a view at the level where tracing starts
-  RefinedRays,    ///< their finer rays, in refined nodes
-  RankedViews,    ///< frusta of the best views: of the searched segment, or by utility
+  ContourPoints,   ///< with their normals
+  SurfaceNormals,  ///< normals of the surface at the contour points
+  ContourPoses,    ///< all view poses of one contour point
+  Candidates,      ///< positions of all candidate views
+  UtilitySphere,   ///< utility of the hierarchical planner's candidates, on their sphere
+  HitVoxels,       ///< what a view's score counts: unknown voxels; on the octree also known ones and nodes
+  Occluders,       ///< what ends the rays of a view and is not counted as unknown, hatched
+  CoarseRays,      ///< rays of a view at the level where tracing starts
+  RefinedRays,     ///< their finer rays, in refined nodes
+  RankedViews,     ///< frusta of the best views: of the searched segment, or by utility
   ChosenView,
   Path,           ///< motion to the chosen view
   Sensor,         ///< the sensor where the last scan was taken
   DepthImage,     ///< last depth image, beside the scene
   FilteredDepth,  ///< what the filters removed of it, in the scene and beside it
 };
-inline constexpr int kLayerCount = 27;
+inline constexpr int kLayerCount = 29;
 
 /// Name of a layer in files and on the command line, e.g. "contour-points".
 std::string_view layerName(Layer layer);
@@ -108,8 +110,9 @@ struct LayerStyle {
   std::array<SlicePlane, 3> slices = {SlicePlane{}, SlicePlane{true, {}}, SlicePlane{}};
   /// Nodes of the octree layer have edges of 2^level finest voxels, 0..8; empty = where tracing starts.
   std::optional<int> octree_level;
-  std::optional<int> view_id;  ///< whose rays are drawn, >= 0; empty = the chosen view, else the best
-  int coarse_rays = 300;       ///< at most, evenly thinned, and their refined rays, 1..100000
+  std::optional<int>
+      view_id;            ///< whose rays or poses are drawn, >= 0; empty = the chosen view, else the best
+  int coarse_rays = 300;  ///< at most, evenly thinned, and their refined rays, 1..100000
   UtilityFactor utility_factor = UtilityFactor::Utility;
   double truth_opacity = 1.0;         ///< (0, 1]; below 1 the true scene is a ghost
   double surface_opacity = 1.0;       ///< (0, 1]
@@ -138,14 +141,26 @@ struct Eye {
   double distance() const { return (focus - position).norm(); }
 };
 
-/// Where the scene is looked at from; the same for every step, so that pictures can be compared. Sensors,
-/// views and paths that are shown and leave the workspace make the picture wider.
+/// What must be seen.
+enum class CameraFocus : std::uint8_t {
+  Workspace,
+  Object,  ///< the object's box, if the step has one, else the workspace
+  Segment  ///< the sphere of the segment that was tried, if there is one, else the workspace
+};
+/// `workspace`, `object`, `segment`.
+std::string_view focusName(CameraFocus focus);
+std::optional<CameraFocus> focusNamed(std::string_view name);
+std::vector<std::string_view> focusNames();
+
+/// Where the scene is looked at from; the same for every step, so that pictures can be compared (unless
+/// the focus is another one in each). Sensors, views and paths that are shown and leave what must be seen
+/// make the picture wider.
 struct CameraView {
   double azimuth_rad = -1.0297442586766543;   ///< of the eye from +x about z; -59 deg, the robot is at -y
   double elevation_rad = 0.6806784082777885;  ///< above the horizon; 39 deg
   double fov_rad = kUsualFov_rad;             ///< vertical aperture
-  bool object = false;  ///< the object's box must be seen instead of the workspace, if the step has one
-  double zoom = 1.0;    ///< 1: what must be seen fills the picture
+  CameraFocus focus = CameraFocus::Workspace;
+  double zoom = 1.0;  ///< 1: what must be seen fills the picture
   /// Space before the workspace (-y) that must be seen too, metres, 0..10; empty = 0.2 in a known scene, else
   /// 0.
   std::optional<double> front_m;

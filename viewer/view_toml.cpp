@@ -261,10 +261,10 @@ void readCamera(const toml::table& part, const std::string& source, UnknownKeys 
     if (table.has(key)) camera.*member = table.number(key);
     check(camera, table, key);
   }
-  const std::string focus = table.text("focus", camera.object ? "object" : "workspace");
-  if (focus != "object" && focus != "workspace")
-    table.fail("focus", "there is no focus '" + focus + "'; allowed: workspace, object");
-  camera.object = focus == "object";
+  const std::string wanted = table.text("focus", std::string(focusName(camera.focus)));
+  const auto focus = focusNamed(wanted);
+  if (!focus) refuseName(table, "focus", "focus", wanted, focusNames());
+  camera.focus = *focus;
   table.accept({"eye"});
   if (const toml::table* eye = tomlPart(part, "eye", source)) camera.eye = readEye(*eye, source, unknown);
   finish(table, unknown);
@@ -275,7 +275,7 @@ toml::table cameraToToml(const CameraView& camera) {
   for (const auto& [key, member, unit] : kCameraNumbers) table.insert(key, inUnit(camera.*member, unit));
   for (const auto& [key, member] : kCameraFrame)
     if (camera.*member) table.insert(key, *(camera.*member));
-  table.insert("focus", camera.object ? "object" : "workspace");
+  table.insert("focus", focusName(camera.focus));
   if (camera.eye) table.insert("eye", eyeToToml(*camera.eye));
   return table;
 }

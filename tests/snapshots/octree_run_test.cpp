@@ -104,7 +104,7 @@ TEST_F(OctreeRun, ProductsOfTheOtherPlannerAreRefused) {
     EXPECT_THAT(messageFor("contour", recipe, 1),
                 testing::AllOf(HasSubstr(std::string("recipe '") + recipe + "'"), HasSubstr("step 1"),
                                HasSubstr("contour planner; try scene, states, contours")));
-  for (const char* recipe : {"contours", "segments"})
+  for (const char* recipe : {"contours", "segments", "normals", "poses", "labels"})
     EXPECT_THAT(messageFor("octree", recipe, 1),
                 HasSubstr("hierarchical planner; try scene, states, octree"));
   EXPECT_THAT(messageFor("contour", "utility", std::nullopt), HasSubstr("no step has anything of it"));
@@ -113,6 +113,7 @@ TEST_F(OctreeRun, ProductsOfTheOtherPlannerAreRefused) {
   EXPECT_THAT(namesIn(takeSnapshots(runPath("both"), request("some", {"utility"}))),
               testing::Contains("both-step02-utility.png"));
   EXPECT_EQ(messageFor("octree", "overview", 1), "no error");
+  EXPECT_EQ(messageFor("octree", "counted", 1), "no error");
 }
 
 TEST_F(OctreeRun, ViewIdIsForPicturesOfRays) {

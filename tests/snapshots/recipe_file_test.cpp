@@ -104,7 +104,7 @@ height_share = 0.6
   EXPECT_EQ(recipe.view.style.view_id, 17);
   EXPECT_EQ(recipe.view.style.coarse_rays, 99);
   EXPECT_EQ(recipe.view.style.utility_factor, UtilityFactor::Distance);
-  EXPECT_TRUE(recipe.view.camera.object);
+  EXPECT_EQ(recipe.view.camera.focus, CameraFocus::Object);
 }
 
 TEST_F(RecipeFile, WhatIsLeftOutIsAsInTheBuiltInOnes) {

@@ -106,6 +106,21 @@ TEST_F(SnapshotTest, EndIsTheMapAfterTheLastScan) {
   EXPECT_THAT(messageOf(wanted), HasSubstr("'views': it shows planning"));
 }
 
+TEST_F(SnapshotTest, EveryRecipeOfTheContourPlannerIsAnotherPicture) {
+  SnapshotRequest wanted = request("recipes");
+  wanted.step = 1;
+  for (const Recipe& recipe : recipes())
+    if (!recipe.foreign(PlannerKind::Contour) && recipe.name != "filters")
+      wanted.recipes.push_back(recipe.name);
+  for (const char* name : {"normals", "poses", "labels", "roundness", "isolation", "counted"})
+    EXPECT_THAT(wanted.recipes, testing::Contains(name));
+  const auto files = takeSnapshots(run_, wanted);
+  ASSERT_EQ(files.size(), wanted.recipes.size());
+  for (std::size_t a = 0; a < files.size(); ++a)
+    for (std::size_t b = a + 1; b < files.size(); ++b)
+      EXPECT_NE(bytesOf(files[a]), bytesOf(files[b])) << files[a] << ", " << files[b];
+}
+
 TEST_F(SnapshotTest, RecipesOfPlanningLeaveTheLastMapOut) {
   SnapshotRequest wanted = request("planning-{step}.png");
   wanted.recipes = {"views"};

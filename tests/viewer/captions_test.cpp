@@ -98,6 +98,17 @@ TEST(Captions, SaySegmentsInTheOrderThatTheStyleAsksFor) {
       << "no distances are kept so far out";
 }
 
+TEST(Captions, TellNormalsApartAndCountThePosesOfAPoint) {
+  const test::SyntheticRun run = test::makeSyntheticRun();
+  EXPECT_THAT(normalFigures(run.frame(), {}),
+              HasSubstr("At " + std::to_string(run.record.contours->points.size()) + " contour point"));
+  EXPECT_THAT(poseFigures(run.frame(), {}), HasSubstr("generates 40 poses"));
+  EXPECT_THAT(poseFigures(run.frame(), {}),
+              HasSubstr("View " + std::to_string(run.record.search->chosen->id) + " is one"));
+  EXPECT_THAT(poseFigures(test::makeEmptyRun().frame(), {}), HasSubstr("no contour points"));
+  EXPECT_THAT(normalFigures(test::makeEmptyRun().frame(), {}), HasSubstr("no contour points"));
+}
+
 TEST(Captions, EmptyRunHasSentencesToo) {
   const test::SyntheticRun run = test::makeEmptyRun();
   for (const auto figures : {scanFigures, stateFigures, contourFigures, segmentFigures, viewFigures,

@@ -48,7 +48,7 @@ Preferences unusual() {
   p.view.camera.azimuth_rad = 0.777;
   p.view.camera.elevation_rad = -0.3;
   p.view.camera.fov_rad = 0.61;
-  p.view.camera.object = true;
+  p.view.camera.focus = CameraFocus::Segment;
   p.view.camera.zoom = 1.5;
   p.view.camera.front_m = 0.35;
   p.view.camera.height_share = 0.55;
@@ -75,7 +75,7 @@ void expectEqual(const ViewSettings& a, const ViewSettings& b) {
   EXPECT_NEAR(a.camera.azimuth_rad, b.camera.azimuth_rad, 1e-12);
   EXPECT_NEAR(a.camera.elevation_rad, b.camera.elevation_rad, 1e-12);
   EXPECT_NEAR(a.camera.fov_rad, b.camera.fov_rad, 1e-12);
-  EXPECT_EQ(a.camera.object, b.camera.object);
+  EXPECT_EQ(a.camera.focus, b.camera.focus);
   EXPECT_EQ(a.camera.zoom, b.camera.zoom);
   EXPECT_EQ(a.camera.front_m, b.camera.front_m);
   EXPECT_EQ(a.camera.height_share, b.camera.height_share);

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <vtkActor.h>
 #include <vtkCoordinate.h>
+#include <vtkDataArray.h>
 #include <vtkMapper.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkProperty.h>
 #include <vtkTextActor.h>
@@ -13,9 +15,12 @@
 #include <set>
 
 #include "core/gpu/egl_context.h"
+#include "io/error.h"
 #include "tests/support/synthetic_record.h"
+#include "viewer/contour_marks.h"
 #include "viewer/layers/layer.h"
 #include "viewer/offscreen_renderer.h"
+#include "viewer/segment_scores.h"
 
 namespace vantage {
 namespace {
@@ -118,6 +123,69 @@ TEST(Layers, RankedViewsDrawNoMoreThanAskedForAndNameTheirUnit) {
   EXPECT_NE(content.scale->title.find("rays"), std::string::npos);
 }
 
+TEST(Layers, PosesOfAContourPointAreAllOfThemAboutThePointOfTheChosenView) {
+  const SyntheticRun& run = sharedRun();
+  const auto shown = shownPoses(run.frame(), {});
+  ASSERT_TRUE(shown);
+  EXPECT_EQ(shown->point, run.record.search->chosen->contour_point);
+  EXPECT_EQ(shown->view, run.record.search->chosen->id);
+  const ContourViewConfig& config = run.header.contour_config.views;
+  ASSERT_EQ(shown->poses.size(), static_cast<std::size_t>(config.posesPerPoint()));
+  const Eigen::Vector3d& point = run.record.contours->points[shown->point].position_m;
+  int straight = 0;
+  for (const PointPose& pose : shown->poses) {
+    EXPECT_LT((pose.T_world_camera * Eigen::Vector3d(0, 0, config.distances_m[0]) - point).norm(), 1e-6);
+    EXPECT_TRUE(pose.T_world_camera.isApprox(*poseOfCandidate(run.frame(), pose.id), 1e-12));
+    straight += pose.straight;
+  }
+  EXPECT_EQ(straight, config.rolls);
+  LayerStyle other;
+  other.view_id = 0;
+  EXPECT_EQ(shownPoses(run.frame(), other)->point, 0u);
+  const LayerContent content = buildLayer(Layer::ContourPoses, run.frame(), {});
+  EXPECT_EQ(cellsOf(content), 5 * (config.rolls - 1) * 4) << "images of the other rolls";
+  EXPECT_EQ(content.must_see.size(), shown->poses.size() * 5);
+  other.view_id = 100'000'000;
+  EXPECT_THROW(buildLayer(Layer::ContourPoses, run.frame(), other), InputError);
+}
+
+TEST(Layers, SurfaceNormalsAreThoseOfTheNearestVertices) {
+  SurfaceCloud cloud;
+  cloud.points = {{0, 0, 0}, {1, 0, 0}};
+  cloud.normals = {{0, 0, 1}, {1, 0, 0}};
+  const std::vector<ContourPoint> points = {{{0.4, 0.1, 0.0}, {0, 1, 0}, 1}, {{0.6, 0.1, 0.0}, {0, 1, 0}, 1}};
+  const auto normals = surfaceNormalsAt(points, cloud);
+  ASSERT_EQ(normals.size(), 2u);
+  EXPECT_EQ(normals[0], Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(normals[1], Eigen::Vector3d::UnitX());
+  EXPECT_TRUE(surfaceNormalsAt(points, {}).empty());
+  EXPECT_EQ(cellsOf(buildLayer(Layer::SurfaceNormals, sharedRun().frame(), {})),
+            static_cast<vtkIdType>(sharedRun().record.contours->points.size()));
+}
+
+TEST(Layers, SegmentsAreColouredByThePartThatIsAskedFor) {
+  LayerStyle style;
+  style.saliency_max = 1.0;
+  EXPECT_EQ(buildLayer(Layer::Segments, sharedRun().frame(), style).scale->title, "saliency of the segment");
+  style.saliency_part = SaliencyPart::Isolation;
+  style.isolation_distance_m = 0.05;
+  const LayerContent content = buildLayer(Layer::Segments, sharedRun().frame(), style);
+  EXPECT_EQ(content.scale->title, "isolation F, B_th = 5 cm");
+  auto* mesh = vtkPolyData::SafeDownCast(actorOf(content)->GetMapper()->GetInputDataObject(0, 0));
+  ASSERT_NE(mesh, nullptr);
+  auto* colors = mesh->GetPointData()->GetScalars();
+  ASSERT_NE(colors, nullptr);
+  const std::vector<Segment> segments = shownSegments(sharedRun().frame(), style);
+  const std::vector<std::uint32_t>& labels = sharedRun().record.labels->of_point;
+  ASSERT_EQ(static_cast<std::size_t>(colors->GetNumberOfTuples()), labels.size());
+  for (std::size_t i = 0; i < labels.size(); i += 97) {
+    const Rgb wanted =
+        labels[i] == 0 ? palette::kNoSegment : colorAt(ColorMap::Viridis, segments[labels[i] - 1].isolation);
+    for (int c = 0; c < 3; ++c)
+      ASSERT_EQ(colors->GetComponent(static_cast<vtkIdType>(i), c), wanted.bytes()[c]) << "point " << i;
+  }
+}
+
 TEST(Layers, EveryColouredLayerHasALegend) {
   for (int i = 0; i < kLayerCount; ++i) {
     const Layer layer = static_cast<Layer>(i);
@@ -187,6 +255,26 @@ TEST_F(SceneTest, DrawsWithoutADisplayInTheColoursOfItsLegend) {
   EXPECT_GT(countColor(image, palette::kChosen, 12), 40);
   EXPECT_GT(countColor(image, palette::kNormal, 12), 40);
   EXPECT_GT(countColor(image, palette::kPaper, 2), image.width * image.height / 4);
+}
+
+TEST(Focus, OnTheSegmentTheEyeComesNearerAndLooksAtIt) {
+  Scene scene;
+  const auto eyeFor = [&](const SyntheticRun& run, CameraFocus focus) {
+    ViewSettings view;
+    view.layers = {Layer::Surface};
+    view.camera.focus = focus;
+    scene.setFrame(run.frame());
+    scene.arrange(view);
+    scene.placeEye(view.camera, 1.6);
+    return scene.eye();
+  };
+  const Eye far = eyeFor(sharedRun(), CameraFocus::Workspace),
+            near = eyeFor(sharedRun(), CameraFocus::Segment);
+  EXPECT_LT(near.distance(), 0.8 * far.distance());
+  const Sphere& sphere = shownSearch(sharedRun().record)->sphere;
+  EXPECT_LT((near.focus - sphere.center).norm(), 0.2 * sphere.radius);
+  const SyntheticRun empty = test::makeEmptyRun();
+  EXPECT_EQ(eyeFor(empty, CameraFocus::Segment), eyeFor(empty, CameraFocus::Workspace));
 }
 
 TEST_F(SceneTest, TranslucentFrontierTintsThePicture) {

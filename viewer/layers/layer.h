@@ -35,6 +35,8 @@ LayerContent segmentsLayer(const SceneFrame& frame, const LayerStyle& style);
 LayerContent segmentRanksLayer(const SceneFrame& frame, const LayerStyle& style);
 LayerContent contourVoxelsLayer(const SceneFrame& frame, const LayerStyle& style);
 LayerContent contourPointsLayer(const SceneFrame& frame, const LayerStyle& style);
+LayerContent surfaceNormalsLayer(const SceneFrame& frame, const LayerStyle& style);
+LayerContent contourPosesLayer(const SceneFrame& frame, const LayerStyle& style);
 LayerContent candidatesLayer(const SceneFrame& frame, const LayerStyle& style);
 LayerContent utilitySphereLayer(const SceneFrame& frame, const LayerStyle& style);
 LayerContent hitVoxelsLayer(const SceneFrame& frame, const LayerStyle& style);

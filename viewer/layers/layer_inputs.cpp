@@ -77,6 +77,10 @@ constexpr Reads readsOf(Layer layer) {
     case Layer::ContourVoxels:
     case Layer::ContourPoints:
       return {kContours, kLines};
+    case Layer::SurfaceNormals:
+      return {kContours | kSurface, kLines};
+    case Layer::ContourPoses:
+      return {kContours | kPositions | kSearch | kGain, kViewId | kBestViews | kLines};
     case Layer::Candidates:
       return {kPositions | kUtilities, kLines};
     case Layer::UtilitySphere:

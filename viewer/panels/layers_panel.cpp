@@ -19,7 +19,7 @@ const std::vector<LayerGroup>& layerGroups() {
   static const std::vector<LayerGroup> groups = {
       {"Map", {L::Occupied, L::Unknown, L::Free, L::Slices, L::Octree, L::Truth}},
       {"Surface", {L::Surface, L::SegmentLabels, L::Segments, L::SegmentRanks}},
-      {"Contours", {L::ContourVoxels, L::ContourPoints}},
+      {"Contours", {L::ContourVoxels, L::ContourPoints, L::SurfaceNormals, L::ContourPoses}},
       {"Views", {L::Candidates, L::UtilitySphere, L::RankedViews, L::ChosenView, L::Path}},
       {"What a view sees", {L::HitVoxels, L::Occluders, L::CoarseRays, L::RefinedRays}},
       {"Sensor", {L::Sensor, L::DepthImage, L::FilteredDepth}},
