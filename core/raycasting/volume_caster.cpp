@@ -1,5 +1,8 @@
 #include "core/raycasting/volume_caster.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/raycasting/bundle.h"
 
 namespace vantage {
@@ -30,9 +33,12 @@ class VolumeCaster {
   VolumeCaster(const StateGrid& grid, const Bundle& bundle)
       : grid_(grid), bundle_(bundle), seen_(grid.geometry().count()) {}
 
-  void cast(const PlainRay<float>& ray, float length) {
+  void cast(PlainRay<float> ray, float length) {
     const float near = bundle_.min_range_m / length;
     bool meets = false;
+    ++counts_.rays;
+    ray.end = std::min(ray.end, leavesRegion(ray));
+    if (ray.end < near) return;
     const auto walked = casting::walkPlainly(bundle_.grid.size, ray, [&](int i, int j, int k, float t) {
       const VoxelState state = grid_.at(i, j, k);
       if (state == VoxelState::Unknown && t >= near && inRegion({i, j, k})) {
@@ -41,7 +47,6 @@ class VolumeCaster {
       }
       return state == VoxelState::Occupied;
     });
-    ++counts_.rays;
     counts_.visited += walked.visited;
     counts_.unknown += meets;
     counts_.occupied += walked.hit && walked.t >= near && inRegion(walked.voxel);
@@ -54,6 +59,23 @@ class VolumeCaster {
   }
 
  private:
+  /// Parameter from which on a ray meets no voxel of the ball; negative if it never does.
+  float leavesRegion(const PlainRay<float>& ray) const {
+    const casting::Region& region = bundle_.region;
+    if (std::isinf(region.radius2)) return region.radius2;
+    if (region.radius2 < 0.0f) return -1.0f;
+    double along = 0.0, direction2 = 0.0, distance2 = 0.0;
+    for (int a = 0; a < 3; ++a) {
+      const double to_center = region.center[a] + 0.5 - ray.origin[a];  // voxel i covers [i, i + 1)
+      along += to_center * ray.direction[a];
+      direction2 += double(ray.direction[a]) * ray.direction[a];
+      distance2 += to_center * to_center;
+    }
+    const double radius = std::sqrt(region.radius2) + 1.0;  // to the far corner of its outermost voxels
+    const double root = along * along - direction2 * (distance2 - radius * radius);
+    return root < 0.0 ? -1.0f : static_cast<float>((along + std::sqrt(root)) / direction2);
+  }
+
   bool inRegion(const int (&v)[3]) const {
     return casting::withinBounds(bundle_.region, v) &&
            casting::squaredDistance(bundle_.region, v) <= bundle_.region.radius2;

@@ -9,7 +9,8 @@ namespace vantage {
 /// - `unknown_voxels`: distinct unknown voxels in the region that a ray enters beyond the minimum range,
 /// - `unknown`: rays that enter at least one of them,
 /// - `occupied`: rays that end on occupied inside the region, beyond the minimum range,
-/// - `rays` and `visited` as ever; the others stay 0.
+/// - `rays`, and `visited` voxels: rays are followed until they leave the ball of the region; the others stay
+///   0.
 /// `query.outside` and the histogram are of no account. One voxel at a time, 10 to 100 times slower than
 /// castUniform().
 VisibilityCounts castThroughUnknown(const StateGrid& grid, const PinholeCamera& camera,

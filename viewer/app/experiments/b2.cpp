@@ -30,7 +30,7 @@ const std::vector<Variant>& variants() {
       {"(d)", "gain at full resolution", {"gain.reduction=1"}},
       // 100 voxels are the faces that 700 rays meet at 0.8 m; behind each lie 34 of the sphere's margin.
       {"(d)", "gain in voxels", {"gain.count=voxels", "gain.reduction=2", "gain.threshold=100"}},
-      {"(d)", "gain in volume", {"gain.count=volume", "gain.reduction=2", "gain.threshold=3400"}},
+      {"(d)", "gain in volume", {"gain.count=volume", "gain.reduction=4", "gain.threshold=3400"}},
       {"(e)", "D_th x 0.5", {"contours.group_distance_m=0.01"}},
       {"(e)", "D_th x 2", {"contours.group_distance_m=0.04"}},
       {"(e)", "A_th x 0.5", {"contours.group_angle_deg=15"}},
