@@ -270,7 +270,7 @@ TEST(Focus, OnTheSegmentTheEyeComesNearerAndLooksAtIt) {
   };
   const Eye far = eyeFor(sharedRun(), CameraFocus::Workspace),
             near = eyeFor(sharedRun(), CameraFocus::Segment);
-  EXPECT_LT(near.distance(), 0.8 * far.distance());
+  EXPECT_LT(near.distance(), 0.95 * far.distance());
   const Sphere& sphere = shownSearch(sharedRun().record)->sphere;
   EXPECT_LT((near.focus - sphere.center).norm(), 0.2 * sphere.radius);
   const SyntheticRun empty = test::makeEmptyRun();
