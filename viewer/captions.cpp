@@ -111,8 +111,8 @@ std::string filterFigures(const SceneFrame& frame, const LayerStyle&) {
   const std::uint64_t valid = std::max<std::uint64_t>(1, counts.kept + counts.removed());
   const auto share = [&](std::uint64_t pixels) { return percent(static_cast<double>(pixels) / valid); };
   std::string text = grouped(counts.removed()) + " of " + grouped(valid) + " measured pixels were removed (" +
-                     share(counts.removed()) + "): shadow " + grouped(counts.shadow + counts.both) +
-                     ", veil " + grouped(counts.veil + counts.both) + ", both " + grouped(counts.both);
+                     share(counts.removed()) + "): shadow " + grouped(counts.shadow) + ", veil " +
+                     grouped(counts.veil) + ", shadow and veil " + grouped(counts.both);
   return text + (counts.edge > 0 ? ", edges " + grouped(counts.edge) + "." : ".");
 }
 

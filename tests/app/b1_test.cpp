@@ -1,6 +1,7 @@
 // B1's report on made-up runs, and runs that are kept.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <stdexcept>
 
@@ -73,7 +74,7 @@ TEST(B1, FiguresOfARunFollowFromItsNbvs) {
 
 TEST(B1, AllCriteriaPassWhereTheyShould) {
   const Report report = judged(passingRuns());
-  ASSERT_EQ(report.claims.size(), 9u);
+  ASSERT_EQ(report.claims.size(), 10u);
   for (const Claim& claim : report.claims) {
     if (claim.experiment == "B1 (6)") continue;
     EXPECT_EQ(claim.verdict, Verdict::Pass) << claim.experiment << ": " << claim.ours;
@@ -108,6 +109,10 @@ TEST(B1, EachCriterionCanBeMissed) {
                  })),
             Verdict::NotComparable)
       << "segmentation decides";
+  EXPECT_EQ(with("B1 (2c)", eachNbv([](auto& run, auto& nbv) {
+                   if (run.run.proposed) nbv.seconds.motion = 100.0;
+                 })),
+            Verdict::Missed);
   EXPECT_EQ(with("B1 (3a)", eachNbv([](auto& run, auto& nbv) { nbv.toward_object &= !run.run.proposed; })),
             Verdict::Missed);
   EXPECT_EQ(with("B1 (3b)", [](ExplorationRun& run) { run.nbvs[0].toward_object = false; }), Verdict::Missed);
@@ -125,6 +130,13 @@ TEST(B1, EachCriterionCanBeMissed) {
                    if (nbv.saliency_check) nbv.saliency_check->object_share = 0.9;
                  })),
             Verdict::Missed);
+}
+
+TEST(B1, PartOfTheProtocolIsNamedAsSuch) {
+  Runs runs = passingRuns();
+  std::erase_if(runs, [](const ExplorationRun& run) { return run.run.scene != "tabletop"; });
+  for (const Claim& claim : judged(runs).claims)
+    EXPECT_THAT(claim.remark, HasSubstr("on 1 of 4 scenes, ")) << claim.experiment;
 }
 
 TEST(B1, WithoutBothMethodsNothingIsJudged) {
@@ -191,6 +203,20 @@ TEST(KeptRuns, GiveBackWhatWasKeptForTheSameSetupAlone) {
   EXPECT_FALSE(KeptRuns(folder.path() / "runs", "1.1").find(run.run, {})) << "another program";
   EXPECT_FALSE(kept.find(run.run, [](Settings& s) { s.exploration.contour.gain.gain_threshold = 500; }))
       << "other settings";
+  ExplorationRun shortened = run;
+  shortened.nbvs.resize(1);
+  kept.keep(shortened, {});
+  EXPECT_FALSE(kept.find(run.run, {})) << "views are missing";
+  shortened = run;
+  shortened.unknown_near_objects.resize(1);
+  kept.keep(shortened, {});
+  EXPECT_FALSE(kept.find(run.run, {})) << "a curve is cut short";
+  kept.keep(run, {});
+  {
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    EXPECT_FALSE(kept.find(run.run, {})) << "another number of threads, other times";
+  }
+  EXPECT_TRUE(kept.find(run.run, {}));
   test::writeFile(folder.path() / "runs/tabletop-core-proposed-2.json", "{\"setup\": ");
   EXPECT_FALSE(kept.find(run.run, {})) << "cut short";
   EXPECT_FALSE(KeptRuns("", "1.0").find(run.run, {})) << "nothing is kept";

@@ -9,6 +9,7 @@
 
 #include "tests/support/process.h"
 #include "viewer/app/experiments/b1_segments.h"
+#include "viewer/app/experiments/b2_noise.h"
 #include "viewer/app/experiments/b2_normals.h"
 #include "viewer/color.h"
 #include "viewer/image.h"
@@ -125,12 +126,33 @@ TEST(CompareNormals, ViewBGainsLessAtTheBoxesOfS1) {
     EXPECT_GT(at.frontier.best, 700.0) << at.object;
     EXPECT_GE(at.frontier.best, at.frontier.mean) << at.object;
     if (at.object.starts_with("box")) {
-      EXPECT_LT(at.ratio(), 1.0) << at.object;
+      EXPECT_LT(at.ratio(&ObjectGain::mean), 1.0) << at.object;
     }
   }
   EXPECT_EQ(normalsTable(objects).rows.size(), 5u);
   EXPECT_NE(judgeNormals(objects).verdict, Verdict::NotRun);
   EXPECT_EQ(judgeNormals({}).verdict, Verdict::NotRun);
+}
+
+TEST(NoiseRanks, AreThoseOfRoundnessAloneAndOfTheWholeSaliency) {
+  const NoiseRanks ideal = rankNoise(first());
+  EXPECT_GT(ideal.others, 0u);
+  EXPECT_EQ(ideal.above_by_saliency, 0u);
+  EXPECT_EQ(judgeNoise({10, 3, 1}).verdict, Verdict::Pass);
+  EXPECT_EQ(judgeNoise({10, 3, 3}).verdict, Verdict::Missed);
+  EXPECT_EQ(judgeNoise({10, 0, 0}).verdict, Verdict::NotComparable);
+  const NoiseRanks noisy = rankNoise(firstStep({}, {"camera.faults=true"}));
+  EXPECT_GT(noisy.others, ideal.others) << "faults leave segments of their own";
+  EXPECT_LE(noisy.above_by_saliency, noisy.others);
+}
+
+TEST(CompareNormals, IsJudgedByTheBestPose) {
+  const auto at = [](const char* object, double surface) {
+    return NormalsAtObject{object, {10, 1000.0, 500.0}, {10, surface, 500.0}};
+  };
+  EXPECT_EQ(judgeNormals({at("box", 500), at("ball", 1000)}).verdict, Verdict::Pass);
+  EXPECT_EQ(judgeNormals({at("box", 1100), at("ball", 1000)}).verdict, Verdict::Missed);
+  EXPECT_EQ(judgeNormals({at("box", 500), at("ball", 700)}).verdict, Verdict::Missed);
 }
 
 /// EGL looks for drivers once a process: this test does in one of its own.

@@ -108,12 +108,17 @@ TEST_F(Filter, WhatCannotBeIsRefusedInOneLine) {
   expectRefused(filter({}, "gone.png"), {"gone.png"});
   expectRefused(filter({"--set", "filter.veil_angle_deg=200"}), {"filter.veil_angle_deg"});
   expectRefused(filter({"--mask", folder_ / "out.png"}), {"out.png"});
+  expectRefused(filter({"--set", "filter.veil=false"}), {"filter.veil=false", "--no-veil"});
 }
 
 /// A pixel that lies between its two horizontal neighbours by more than 30 mm each way.
 struct FlyingPixel {
-  int depth_mm = 0;
-  int step_mm = 0;  ///< to the farther of the two, in depth
+  int u = 0, v = 0, depth_mm = 0;
+  int largest_step_mm = 0;  ///< to the farther of the two, in depth
+  /// Depth step between neighbours at which eq. (19) sees a grazing angle (12.8's rule of thumb).
+  double grazingStep_mm(double focal_px) const {
+    return depth_mm / (focal_px * std::tan(10 * std::numbers::pi / 180));
+  }
 };
 
 std::vector<FlyingPixel> flyingPixels(const DepthImage& depth) {
@@ -126,8 +131,8 @@ std::vector<FlyingPixel> flyingPixels(const DepthImage& depth) {
     for (int u = 1; u + 1 < depth.width; ++u) {
       const int left = mm(u - 1, v), here = mm(u, v), right = mm(u + 1, v);
       if (left == 0 || here == 0 || right == 0) continue;
-      if (std::min(here - left, right - here) > 30 || std::min(left - here, here - right) > 30)
-        found.push_back({here, std::max(std::abs(here - left), std::abs(right - here))});
+      if (std::min(here - left, right - here) <= 30 && std::min(left - here, here - right) <= 30) continue;
+      found.push_back({u, v, here, std::max(std::abs(here - left), std::abs(right - here))});
     }
   return found;
 }
@@ -138,19 +143,32 @@ TEST_F(Filter, RemovesTheFlyingPixelsOfARecordedKinectV2) {
   const PinholeCamera camera{
       .width = 960, .height = 540, .fx = 519.226, .fy = 522.23, .cx = 479.462, .cy = 272.737};
   writeCamera(folder_.path() / "qhd.yaml", camera);
-  const std::pair<const char*, std::size_t> expected[] = {{"data-0000-depth.png", 400},
-                                                          {"data-0001-depth.png", 638}};
-  for (const auto& [name, before] : expected) {
-    const DepthImage measured = readDepthPng(frames / name);
-    EXPECT_EQ(flyingPixels(measured).size(), before);
+  const struct {
+    const char* name;
+    std::size_t before, steep, removed, after;
+  } expected[] = {{"data-0000-depth.png", 400, 156, 222, 93}, {"data-0001-depth.png", 638, 221, 302, 154}};
+  for (const auto& frame : expected) {
+    const DepthImage measured = readDepthPng(frames / frame.name);
     const ProcessResult result =
-        vantage({"filter", (frames / name).string(), "--camera", folder_ / "qhd.yaml", "-o",
+        vantage({"filter", (frames / frame.name).string(), "--camera", folder_ / "qhd.yaml", "-o",
                  folder_ / "out.png", "--json", folder_ / "counts.json"});
     ASSERT_EQ(result.code, 0) << result.err;
-    const std::vector<FlyingPixel> after = flyingPixels(readDepthPng(folder_.path() / "out.png"));
-    EXPECT_LE(after.size(), before * 3 / 10);
+    const DepthImage out = readDepthPng(folder_.path() / "out.png");
+    const std::vector<FlyingPixel> before = flyingPixels(measured), after = flyingPixels(out);
+    EXPECT_EQ(before.size(), frame.before);
+    std::size_t steep = 0, removed = 0;
+    for (const FlyingPixel& pixel : before) {
+      const bool gone = !DepthImage::valid(out.at(pixel.u, pixel.v));
+      removed += gone;
+      if (pixel.largest_step_mm <= 1.1 * pixel.grazingStep_mm(camera.fx)) continue;
+      ++steep;
+      EXPECT_TRUE(gone) << pixel.u << ", " << pixel.v;
+    }
+    EXPECT_EQ(steep, frame.steep);
+    EXPECT_NEAR(static_cast<double>(removed), static_cast<double>(frame.removed), 5);
+    EXPECT_NEAR(static_cast<double>(after.size()), static_cast<double>(frame.after), 5);
     for (const FlyingPixel& pixel : after) {  // what is left is no steeper than eq. (19) allows, far away
-      EXPECT_LE(pixel.step_mm, 1.05 * pixel.depth_mm / (camera.fx * std::tan(10 * std::numbers::pi / 180)));
+      EXPECT_LE(pixel.largest_step_mm, 1.05 * pixel.grazingStep_mm(camera.fx));
       EXPECT_GT(pixel.depth_mm, 2500);
     }
     const auto valid = static_cast<double>(std::ranges::count_if(measured.depth_m, DepthImage::valid));

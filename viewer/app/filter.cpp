@@ -6,6 +6,7 @@
 #include "core/perception/depth_filters.h"
 #include "io/camera_file.h"
 #include "io/depth_png.h"
+#include "io/text_file.h"
 #include "viewer/app/command.h"
 #include "viewer/app/console.h"
 #include "viewer/app/inputs.h"
@@ -21,8 +22,16 @@ struct FilterOptions {
   bool no_bilateral = false, no_shadow = false, no_veil = false, edge_aware = false;
 };
 
-/// The paper's three filters with the constants of the configuration; the command line switches.
+/// The paper's three filters with the constants of the configuration; options switch them, whatever runs
+/// are configured to do.
 DepthFilterConfig configOf(const GlobalOptions& global, const FilterOptions& o) {
+  for (const auto& [key, option] :
+       {std::pair("filter.bilateral", "--no-bilateral"), std::pair("filter.shadow", "--no-shadow"),
+        std::pair("filter.veil", "--no-veil"), std::pair("filter.edge_aware", "--edge-aware")})
+    for (const std::string& assignment : global.assignments)
+      if (assignment.starts_with(std::string(key) + "="))
+        throw InputError("--set " + assignment,
+                         std::string("switches a filter of a run; here ") + option + " does");
   DepthFilterConfig config = commandSettings(global).exploration.filter;
   config.bilateral = !o.no_bilateral;
   config.shadow = !o.no_shadow;
@@ -68,6 +77,8 @@ int filter(const GlobalOptions& global, const FilterOptions& o) {
                         {"--mask", o.mask},
                         {"--picture", o.picture},
                         {"--json", global.json}});
+  for (const std::string& path : {o.output, o.mask, o.picture, global.json})
+    if (!path.empty() && path != "-") requireCreatable(path);
   const DepthFilterConfig config = configOf(global, o);
   const PinholeCamera camera = cameraOf(o);
   const DepthImage measured = readDepthPng(o.depth);

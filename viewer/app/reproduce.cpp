@@ -79,6 +79,13 @@ std::vector<double> sizesOf(const ReproduceOptions& options) {
   return options.quick ? std::vector{0.20} : std::vector{0.20, 0.35};
 }
 
+/// This build of the program: what another one made is not taken over.
+std::string programText() {
+  std::error_code error;
+  const auto built = std::filesystem::last_write_time("/proc/self/exe", error);
+  return versionText(false) + (error ? "" : std::to_string(built.time_since_epoch().count()));
+}
+
 ExperimentOptions experimentOptions(const GlobalOptions& global, const ReproduceOptions& options,
                                     Console& console) {
   ExperimentOptions result;
@@ -96,7 +103,7 @@ ExperimentOptions experimentOptions(const GlobalOptions& global, const Reproduce
   result.control = console.control();
   result.seeds = options.seeds;
   result.keep = std::filesystem::path(options.output) / "runs";
-  result.program = versionText(false);
+  result.program = programText();
   return result;
 }
 

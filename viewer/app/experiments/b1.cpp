@@ -18,7 +18,7 @@ std::vector<RunOf> plannedRuns(const ExperimentOptions& options) {
         for (const bool proposed : {true, false}) runs.push_back({scene, series, proposed, seed});
   };
   if (options.quick) {
-    add(Series::Core, 1, {"tabletop"});
+    add(Series::Core, options.seeds.value_or(1), {"tabletop"});
     return runs;
   }
   add(Series::Core, options.seeds.value_or(5), kScenes);

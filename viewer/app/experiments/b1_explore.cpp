@@ -20,9 +20,11 @@ class Progress {
       sum_s_ += seconds;
       ++made_;
     }
-    const std::string time = made_ == 0 ? ""
-                                        : fmt::format("; {} left, about {:.0f} min", left_,
-                                                      static_cast<double>(left_) * sum_s_ / made_ / 60.0);
+    const double wait_s = made_ == 0 ? 0.0 : static_cast<double>(left_) * sum_s_ / made_;
+    const std::string time = made_ == 0 || left_ == 0 ? fmt::format("; {} left", left_)
+                             : wait_s < 120
+                                 ? fmt::format("; {} left, about {:.0f} s", left_, wait_s)
+                                 : fmt::format("; {} left, about {:.0f} min", left_, wait_s / 60.0);
     return fmt::format("{} {}: {} ticks, U_tau {:.0f} -> {:.0f}, {}{}", experiment_, run.run.text(),
                        run.ticks(), run.unknown_near_objects.front(), run.unknown_near_objects.back(),
                        kept ? "kept from before" : fmt::format("{:.0f} s", seconds), time);
@@ -57,7 +59,7 @@ Runs exploreAll(const std::string& experiment, const std::vector<RunOf>& planned
                          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()));
     } catch (const Cancelled&) {
       report.not_run.push_back(
-          fmt::format("{}: {} of {} runs", experiment, planned.size() - i, planned.size()));
+          fmt::format("{} ({} of {} runs)", experiment, planned.size() - i, planned.size()));
       break;
     }
   }

@@ -1,11 +1,13 @@
 // Runs that are kept, so that hours of work outlive an interruption.
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cctype>
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "io/error.h"
 #include "io/text_file.h"
 #include "viewer/app/experiments/b1_runs.h"
 
@@ -63,6 +65,11 @@ NbvResult nbvFrom(const Json& j) {
   return nbv;
 }
 
+bool isWhole(const ExplorationRun& run) {
+  return run.nbvs.size() == kNbvs && run.unknown_near_objects.size() == kNbvs + 1 &&
+         run.unknown_in_boxes.size() == kNbvs + 1;
+}
+
 ExplorationRun runFrom(const RunOf& run, const Json& j) {
   ExplorationRun result;
   result.run = run;
@@ -90,7 +97,9 @@ std::filesystem::path KeptRuns::fileOf(const RunOf& run) const {
 /// All that a result depends on, as one number in hexadecimal.
 std::string KeptRuns::setup(const RunOf& run, const std::function<void(Settings&)>& tune) const {
   const SceneFile scene = sceneOf(run);
-  const std::string text = program_ + scene.text + effectiveToml(settingsOf(run, scene, tune));
+  const std::size_t threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  const std::string text = program_ + fmt::format("{} threads", threads) + scene.text +
+                           effectiveToml(settingsOf(run, scene, tune));
   std::uint64_t hash = 14695981039346656037u;  // FNV-1a
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
   return fmt::format("{:016x}", hash);
@@ -102,10 +111,12 @@ std::optional<ExplorationRun> KeptRuns::find(const RunOf& run,
   try {
     const Json j = Json::parse(readTextFile(fileOf(run)));
     if (j.at("setup") != setup(run, tune)) return std::nullopt;
-    return runFrom(run, j);
-  } catch (const Json::exception&) {  // cut short, or not ours: it is run again
-    return std::nullopt;
+    ExplorationRun result = runFrom(run, j);
+    if (isWhole(result)) return result;
+  } catch (const Json::exception&) {
+  } catch (const InputError&) {
   }
+  return std::nullopt;  // cut short, not readable, or not ours: it is run again
 }
 
 void KeptRuns::keep(const ExplorationRun& result, const std::function<void(Settings&)>& tune) const {

@@ -61,8 +61,10 @@ struct SegmentRow {
 
 /// What criterion 5 needs of one segmented cloud.
 struct SaliencyCheck {
-  bool objects_first = false;  ///< all object segments with more than 5 contour points are above the others
-  double object_share = 0.0;   ///< of the object points, those in object segments
+  /// All object segments with more than 5 contour points are above all others (table, panel, and points
+  /// without a segment); false if there is none.
+  bool objects_first = false;
+  double object_share = 0.0;       ///< of the object points, those in object segments
   double object_pose_share = 0.0;  ///< of all poses, those of object segments
 };
 
@@ -106,8 +108,8 @@ SceneFile sceneOf(const RunOf& run);
 ExplorationRun runExploration(const RunOf& run, const std::function<void(Settings&)>& tune,
                               const RunControl& control);
 
-/// Results that were kept in a folder, by run; a kept result counts only for the same program, scene and
-/// settings.
+/// Results that were kept in a folder, by run; a kept result counts only for the same program, scene,
+/// settings and number of threads.
 class KeptRuns {
  public:
   /// \param folder empty: nothing is kept \param program version and commit

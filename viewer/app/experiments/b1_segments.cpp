@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -89,7 +90,7 @@ SaliencyCheck SegmentObjects::check() const {
   const auto share = [](std::uint64_t part, std::uint64_t all) {
     return all == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(all);
   };
-  check.objects_first = lowest_object > highest_other;
+  check.objects_first = std::isfinite(lowest_object) && lowest_object > highest_other;
   check.object_share = share(in_object_segments, on_objects);
   check.object_pose_share = share(object_poses, poses);
   return check;

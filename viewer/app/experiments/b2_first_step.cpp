@@ -19,8 +19,8 @@ TsdfVolume volumeOf(const StepRecord& record, const GridGeometry& geometry) {
 
 }  // namespace
 
-FirstStep firstStep(const ExperimentOptions& options) {
-  const RunOf run{.scene = "tabletop"};
+FirstStep firstStep(const ExperimentOptions& options, const std::vector<std::string>& changes) {
+  const RunOf run{.scene = "tabletop", .settings = changes};
   const SceneFile scene = sceneOf(run);
   Settings settings = settingsOf(run, scene, options.tune);
   ExplorationConfig& config = settings.exploration;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/exploration/step_record.h"
@@ -20,7 +21,7 @@ struct FirstStep {
 };
 
 /// The initial scan with the experiment's settings and seed 1, and what is planned on it; a few seconds.
-/// Needs no run that was kept. \throws Cancelled
-FirstStep firstStep(const ExperimentOptions& options);
+/// Needs no run that was kept. \param changes settings of the variant, "key=value" \throws Cancelled
+FirstStep firstStep(const ExperimentOptions& options, const std::vector<std::string>& changes = {});
 
 }  // namespace vantage::experiments

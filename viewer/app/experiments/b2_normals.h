@@ -19,8 +19,10 @@ struct ObjectGain {
 struct NormalsAtObject {
   std::string object;
   ObjectGain frontier, surface;
-  /// Mean gain with surface normals / with frontier normals; 0 if the latter gain nothing.
-  double ratio() const { return frontier.mean > 0.0 ? surface.mean / frontier.mean : 0.0; }
+  /// Gain with surface normals / with frontier normals; 0 if the latter gain nothing.
+  double ratio(double ObjectGain::*gain) const {
+    return frontier.*gain > 0.0 ? surface.*gain / frontier.*gain : 0.0;
+  }
 };
 
 /// Both kinds of normals at every object that has a segment of its own, in the order in which they are tried.

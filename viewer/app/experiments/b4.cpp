@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/perception/depth_filters.h"
-#include "hardware/simulated_depth_camera.h"
 #include "viewer/app/experiments/b4_bar.h"
 #include "viewer/app/experiments/experiments.h"
 
@@ -16,8 +14,8 @@ namespace {
 constexpr std::array<double, 5> kAngles_deg = {-60, -30, 0, 30, 60};
 constexpr std::array<double, 3> kWidths_m = {0.04, 0.08, 0.16};
 
-/// Rows of one variant by width, a value for each angle, per cent; "as described" and the sensitivity
-/// variants of evaluation.md, which the runs are compared with.
+/// Rows by width, a value for each angle, per cent: what the paper prints, and what evaluation.md computed
+/// for the scene as described, which the runs are compared with.
 struct Reference {
   const char* source;
   std::array<std::array<double, 5>, 3> fdr_percent;
