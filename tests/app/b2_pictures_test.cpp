@@ -141,7 +141,7 @@ TEST(NoiseRanks, AreThoseOfRoundnessAloneAndOfTheWholeSaliency) {
   EXPECT_EQ(judgeNoise({10, 3, 1}).verdict, Verdict::Pass);
   EXPECT_EQ(judgeNoise({10, 3, 3}).verdict, Verdict::Missed);
   EXPECT_EQ(judgeNoise({10, 0, 0}).verdict, Verdict::NotComparable);
-  const NoiseRanks noisy = rankNoise(firstStep({}, {"camera.faults=true"}));
+  const NoiseRanks noisy = rankNoise(firstStep({}, noisySettings()));
   EXPECT_GT(noisy.others, ideal.others) << "faults leave segments of their own";
   EXPECT_LE(noisy.above_by_saliency, noisy.others);
 }

@@ -148,7 +148,7 @@ void addFirstView(const ExperimentOptions& options, Report& report) {
     const std::vector<NormalsAtObject> objects = compareNormals(first);
     report.tables.push_back(normalsTable(objects));
     report.claims.push_back(judgeNormals(objects));
-    report.claims.push_back(judgeNoise(rankNoise(firstStep(options, {"camera.faults=true"}))));
+    report.claims.push_back(judgeNoise(rankNoise(firstStep(options, noisySettings()))));
     addSaliencyPictures(first, options.control, report);
   } catch (const Cancelled&) {
     report.not_run.push_back(what);

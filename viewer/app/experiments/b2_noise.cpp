@@ -37,6 +37,10 @@ NoiseRanks rankNoise(const FirstStep& first) {
   return ranks;
 }
 
+std::vector<std::string> noisySettings() {
+  return {"camera.faults=true", "segmentation.min_segment_supervoxels=0"};
+}
+
 Claim judgeNoise(const NoiseRanks& noisy) {
   const bool any = noisy.above_by_roundness > 0;
   return {
@@ -47,7 +51,7 @@ Claim judgeNoise(const NoiseRanks& noisy) {
                   "with isolation",
                   noisy.above_by_roundness, noisy.others, noisy.above_by_saliency),
       any ? passIf(noisy.above_by_saliency < noisy.above_by_roundness) : Verdict::NotComparable,
-      "S1 at the first view, by a sensor with faults and no filters"};
+      "S1 at the first view, by a sensor with faults, no filters, small segments not merged"};
 }
 
 }  // namespace vantage::experiments

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
 #include "viewer/app/experiments/b2_first_step.h"
 
@@ -14,6 +16,9 @@ struct NoiseRanks {
   std::size_t above_by_saliency = 0;   ///< and by eq. (12), with isolation
 };
 NoiseRanks rankNoise(const FirstStep& first);
+
+/// What makes a cloud noisy: a sensor with faults, no filters, and small segments that stay.
+std::vector<std::string> noisySettings();
 
 /// B2 (b), Fig. 9: noisy segments rank lower once isolation is used. Not comparable without a noisy segment
 /// that outranks an object by roundness. \param noisy a cloud with noise
