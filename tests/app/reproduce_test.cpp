@@ -125,6 +125,8 @@ TEST(Reproduce, RefusesOptionsThatWouldChangeNothing) {
   expectRefused(vantage({"reproduce", "A2", "--sizes", "0.2,0.3", "-o", out}), {"--sizes", "one"});
   expectRefused(vantage({"reproduce", "A2", "--mesh", "a.obj", "--mesh", "b.obj", "-o", out}),
                 {"--mesh", "one"});
+  expectRefused(vantage({"reproduce", "B4", "--set", "filter.emitter_offset_m=0.2", "-o", folder / "out"}),
+                {"--set", "B4 are exact"});
 }
 
 TEST(Reproduce, QuickTakesEverySizeThatIsAskedFor) {

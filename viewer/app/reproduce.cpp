@@ -44,7 +44,7 @@ struct Choice {
 };
 
 /// Refuses options that would change nothing.
-void requireEffect(const Choice& choice, const ReproduceOptions& o) {
+void requireEffect(const GlobalOptions& global, const Choice& choice, const ReproduceOptions& o) {
   const auto refuse = [&](const char* option, const std::string& why) { throw InputError(option, why); };
   if (!o.dataset.empty() && !choice.has("A3"))
     refuse("--dataset", "is used by A3 alone; add A3 or leave the option out");
@@ -52,6 +52,10 @@ void requireEffect(const Choice& choice, const ReproduceOptions& o) {
     refuse("--seeds", "counts the runs of B1 and B2; add one of them or leave the option out");
   if (!o.up.empty() && o.meshes.empty())
     refuse("--up", "turns meshes; add --mesh FILE or leave the option out");
+  if (choice.names == std::vector<std::string>{"B4"} &&
+      !(global.assignments.empty() && global.config_files.empty()))
+    refuse(global.assignments.empty() ? "--config" : "--set",
+           "changes nothing: the scene and the filter of B4 are exact; leave the option out");
   if (choice.has("A1")) return;
   const std::size_t most = choice.has("A2") ? 1 : 0;
   const std::string why = choice.has("A2") ? "A2 takes one; give one or add A1"
@@ -170,7 +174,7 @@ std::size_t publish(const GlobalOptions& global, const ReproduceOptions& options
 
 int reproduce(const GlobalOptions& global, const ReproduceOptions& options) {
   const Choice choice(options.experiments);
-  requireEffect(choice, options);
+  requireEffect(global, choice, options);
   requireFolder(options.output);
   if (!global.json.empty() && global.json != "-") requireCreatable(global.json);
   Console console(global);
