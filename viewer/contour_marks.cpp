@@ -1,7 +1,6 @@
 #include "viewer/contour_marks.h"
 
-#include <limits>
-
+#include "core/planners/nearest_point.h"
 #include "viewer/view_hits.h"
 
 namespace vantage {
@@ -10,16 +9,10 @@ std::vector<Eigen::Vector3d> surfaceNormalsAt(const std::vector<ContourPoint>& p
                                               const SurfaceCloud& surface) {
   std::vector<Eigen::Vector3d> normals;
   if (surface.points.empty() || surface.normals.size() != surface.points.size()) return normals;
-  for (const ContourPoint& point : points) {
-    const Eigen::Vector3f at = point.position_m.cast<float>();
-    std::size_t nearest = 0;
-    float nearest_m2 = std::numeric_limits<float>::infinity();
-    for (std::size_t i = 0; i < surface.points.size(); ++i) {
-      const float distance_m2 = (surface.points[i] - at).squaredNorm();
-      if (distance_m2 < nearest_m2) nearest = i, nearest_m2 = distance_m2;
-    }
-    normals.push_back(surface.normals[nearest].cast<double>());
-  }
+  const NearestPoint nearest(surface.points);
+  for (const ContourPoint& point : points)
+    if (const auto index = nearest(point.position_m))
+      normals.push_back(surface.normals[*index].cast<double>());
   return normals;
 }
 
