@@ -7,6 +7,7 @@ vantage_library(vantage_io_scene
   SOURCES
     embedded_assets.cpp
     mesh_file.cpp
+    robot_file.cpp
     scene_compose.cpp
     scene_file.cpp
     scene_rays.cpp
@@ -22,6 +23,8 @@ vantage_library(vantage_io_scene
 
 # Files below assets/ that the program carries with it.
 vantage_embed_assets(vantage_io_scene
+  robots/smart_six.urdf
+  robots/ur5.urdf
   scenes/a1_compact.toml
   scenes/a1_elongated.toml
   scenes/a3_room.toml

@@ -1,4 +1,5 @@
 vantage_test(io_scene_test
+  robot_file_test.cpp
   scene_base_test.cpp
   scene_embedded_test.cpp
   scene_experiments_test.cpp
