@@ -1,13 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+#include <set>
+
 #include "tests/app/program.h"
 
 namespace vantage::test {
 namespace {
 
-const std::vector<std::string> kCommands = {"explore", "snapshot", "fuse",     "contours", "views",
-                                            "segment", "gain",     "plan",     "scenes",   "config",
-                                            "info",    "doctor",   "reproduce"};
+const std::vector<std::string> kCommands = {"explore", "snapshot", "fuse",      "contours", "views",
+                                            "segment", "gain",     "plan",      "scenes",   "config",
+                                            "info",    "doctor",   "reproduce", "robots"};
 
 TEST(Usage, AloneItPrintsTheHelpAndExitsWith2) {
   const ProcessResult result = vantage({});
@@ -76,6 +79,26 @@ TEST(Usage, ScenesPrintsOneNameFirstOnEachLine) {
     room |= line.rfind("room ", 0) == 0;
   }
   EXPECT_TRUE(tabletop && room) << result.out;
+}
+
+TEST(Usage, RobotsPrintsOneNameFirstOnEachLine) {
+  const ProcessResult result = vantage({"robots"});
+  EXPECT_EQ(result.code, 0);
+  std::set<std::string> names;
+  for (const std::string& line : lines(result.out)) names.insert(line.substr(0, line.find(' ')));
+  EXPECT_EQ(names, (std::set<std::string>{"free", "smart_six", "ur5"}));
+}
+
+TEST(Usage, RobotsShowsTheJointsOfOne) {
+  const ProcessResult result = vantage({"robots", "smart_six", "--json", "-"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto robot = nlohmann::json::parse(result.out);
+  EXPECT_TRUE(robot["closed_form"]);
+  ASSERT_EQ(robot["joints"].size(), 6u);
+  EXPECT_NEAR(robot["joints"][2]["lower"], -170.0 * 3.14159265358979 / 180.0, 1e-9);
+  expectRefused(vantage({"robots", "ur55"}), {"ur55", "did you mean 'ur5'?"});
+  expectRefused(vantage({"robots", "ur5", "--camera-link", "eye"}),
+                {"ur5: has no link 'eye'", "camera_optical_frame"});
 }
 
 TEST(Usage, TheEffectiveConfigurationReadsBackToItself) {

@@ -40,6 +40,7 @@ void addGain(CLI::App& app, const GlobalOptions& global, Action& action);
 void addPlan(CLI::App& app, const GlobalOptions& global, Action& action);
 void addCompare(CLI::App& app, const GlobalOptions& global, Action& action);
 void addScenes(CLI::App& app, const GlobalOptions& global, Action& action);
+void addRobots(CLI::App& app, const GlobalOptions& global, Action& action);
 void addConfig(CLI::App& app, const GlobalOptions& global, Action& action);
 void addInfo(CLI::App& app, const GlobalOptions& global, Action& action);
 void addReproduce(CLI::App& app, const GlobalOptions& global, Action& action);

@@ -108,6 +108,7 @@ void addCommands(CLI::App& app, const GlobalOptions& global, Action& action) {
   addGain(app, global, action);
   addPlan(app, global, action);
   addScenes(app, global, action);
+  addRobots(app, global, action);
   addCompare(app, global, action);
   addConfig(app, global, action);
   addInfo(app, global, action);
