@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "core/motion/arm_collision.h"
 #include "core/motion/inverse_kinematics.h"
 #include "io/robot_file.h"
 
 // Inverse kinematics: all solutions of camera poses that random configurations reach, from another random
-// configuration. One thread.
+// configuration. Collision: the SMART SiX beside a table in the volume of section 10, of which a room of free
+// space in the middle is known. One thread.
 
 namespace vantage {
 namespace {
@@ -64,6 +66,80 @@ void BM_ForwardKinematics(benchmark::State& state) {
   }
 }
 BENCHMARK(BM_ForwardKinematics)->Unit(benchmark::kMicrosecond);
+
+void fill(StateGrid& states, const Box& box, VoxelState state) {
+  const GridGeometry& g = states.geometry();
+  for (std::size_t n = 0; n < g.count(); ++n)
+    if (box.contains(g.center(g.voxel(n)))) states.set(g.voxel(n), state);
+}
+
+/// Twelve boxes on a table; `seen` also behind them.
+CollisionGrid tableCells(bool seen) {
+  StateGrid states{GridGeometry{{-1.5, -1.0, -0.05}, 3.0 / 512.0, {512, 341, 200}}};
+  fill(states, Box(Eigen::Vector3d(-1.3, -0.98, 0.0), Eigen::Vector3d(1.3, 0.5, 1.1)), VoxelState::Free);
+  fill(states, Box(Eigen::Vector3d(-1.3, -0.66, -0.05), Eigen::Vector3d(1.3, 0.5, 0.0)),
+       VoxelState::Occupied);
+  for (int object = 0; object < 12; ++object) {
+    const Eigen::Vector3d corner(-0.8 + 0.3 * (object % 6), object < 6 ? -0.3 : 0.2, 0.0);
+    const Eigen::Vector3d size(0.12, 0.1, 0.16), behind(0.12, 0.2, 0.16);
+    fill(states, Box(corner, corner + behind), seen ? VoxelState::Free : VoxelState::Unknown);
+    fill(states, Box(corner, corner + size), VoxelState::Occupied);
+  }
+  return CollisionGrid(states, 0.04);
+}
+
+const RobotModel& smartSix() {
+  static const RobotModel arm = loadRobot("smart_six");
+  return arm;
+}
+
+/// On the arm's side of the table nothing else stands.
+ArmPlace besideTheTable() {
+  return {Pose(Eigen::Translation3d(0.0, -0.85, 0.0)),
+          {Box(Eigen::Vector3d(-1.0, -2.0, -0.1), Eigen::Vector3d(1.0, -0.66, 2.0))}};
+}
+
+/// Configurations that are free, or any.
+void BM_StateCheck(benchmark::State& state) {
+  ArmCollision collision(smartSix(), besideTheTable());
+  collision.update(tableCells(false));
+  std::mt19937_64 random(1);
+  std::vector<JointVector> configurations;
+  int drawn = 0;
+  while (configurations.size() < 500 && ++drawn < 200'000) {
+    JointVector q = Queries::configuration(smartSix(), random);
+    if (!state.range(0) || collision.check(q).free()) configurations.push_back(std::move(q));
+  }
+  std::size_t n = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(collision.check(configurations[n]));
+    n = (n + 1) % configurations.size();
+  }
+  state.counters["drawn"] = drawn;
+}
+BENCHMARK(BM_StateCheck)->ArgName("free")->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
+
+void BM_CollisionUpdate(benchmark::State& state) {
+  const CollisionGrid maps[] = {tableCells(false), tableCells(true)};
+  ArmCollision collision(smartSix(), besideTheTable());
+  collision.update(maps[0]);
+  std::size_t written = 0;
+  int n = 0;
+  for (auto _ : state) written = collision.update(maps[++n % 2]);
+  state.counters["cells_written"] = static_cast<double>(written);
+}
+BENCHMARK(BM_CollisionUpdate)->Unit(benchmark::kMillisecond);
+
+void BM_FirstCollisionMap(benchmark::State& state) {
+  const CollisionGrid map = tableCells(false);
+  std::size_t written = 0;
+  for (auto _ : state) {
+    ArmCollision collision(smartSix(), besideTheTable());
+    written = collision.update(map);
+  }
+  state.counters["cells_written"] = static_cast<double>(written);
+}
+BENCHMARK(BM_FirstCollisionMap)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace vantage

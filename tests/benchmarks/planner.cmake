@@ -1,3 +1,3 @@
 vantage_benchmark(planner_benchmark planner_benchmark.cpp benchmark_main.cpp LIBS vantage_planners TBB::tbb)
-# Inverse kinematics of the embedded arms.
+# Kinematics and collisions of the embedded arms.
 vantage_benchmark(arm_benchmark arm_benchmark.cpp benchmark_main.cpp LIBS vantage_motion vantage_io_scene)
