@@ -5,11 +5,14 @@
 
 #include "core/geometry/check.h"
 #include "core/motion/rrt_connect.h"
+#include "core/motion/shortcut.h"
 
 namespace vantage {
 namespace {
 
 using Path = std::vector<Eigen::Vector3d>;
+
+constexpr double kSpacing_m = 0.05;  // of the vertices that may be joined when a path is shortened
 
 /// Reach and height, without collision.
 bool withinLimits(const Eigen::Vector3d& p, const FreeFlyerConfig& config) {
@@ -33,52 +36,6 @@ Box sampleBounds(const CollisionGrid& grid, const FreeFlyerConfig& limits) {
   }
   bounds.min().z() = std::max(bounds.min().z(), limits.min_height_m);
   return bounds;
-}
-
-double lengthOf(const Path& path) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
-  return length;
-}
-
-/// The same path with a vertex at least every `spacing_m`.
-Path densified(const Path& path, double spacing_m) {
-  Path dense = {path.front()};
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const Eigen::Vector3d step = path[i] - path[i - 1];
-    const int parts = std::max(1, static_cast<int>(std::ceil(step.norm() / spacing_m)));
-    for (int p = 1; p < parts; ++p) dense.push_back(path[i - 1] + step * (static_cast<double>(p) / parts));
-    dense.push_back(path[i]);
-  }
-  return dense;
-}
-
-/// From each vertex straight to the farthest one that can be seen.
-template <class SegmentFree>
-Path farthestVisible(const Path& path, const SegmentFree& segment_free) {
-  Path kept = {path.front()};
-  for (std::size_t at = 0; at + 1 < path.size();) {
-    std::size_t next = path.size() - 1;
-    while (next > at + 1 && !segment_free(path[at], path[next])) --next;
-    kept.push_back(path[next]);
-    at = next;
-  }
-  return kept;
-}
-
-template <class SegmentFree>
-Path shortened(Path path, const SegmentFree& segment_free) {
-  constexpr double kSpacing_m = 0.05, kWorthwhile_m = 1e-3;
-  for (int round = 0; round < 3; ++round) {
-    const double before = lengthOf(path);
-    // From both ends: the greedy choice favours the one it starts from.
-    for (int direction = 0; direction < 2; ++direction) {
-      std::reverse(path.begin(), path.end());
-      path = farthestVisible(densified(path, kSpacing_m), segment_free);
-    }
-    if (lengthOf(path) > before - kWorthwhile_m) break;
-  }
-  return path;
 }
 
 /// Waypoints at the corners, orientations spread over the length.
@@ -170,24 +127,26 @@ MotionPlan planPath(const CollisionGrid& grid, const Pose& from, const Pose& to,
     setWaypoints(plan, {start, goal}, from, to);
     return plan;
   }
-  RrtQuery query{start,
-                 goal,
-                 sampleBounds(grid, limits),
-                 {},
-                 segment_free,
-                 config.rrt_range_m,
-                 config.rrt_iterations,
-                 config.safety_time_s,
-                 seed};
-  query.valid = [&](const Eigen::Vector3d& p) {
-    return checkPosition(grid, p, limits) == Reachability::Reachable;
-  };
+  const Box samples = sampleBounds(grid, limits);
+  const RrtQuery query{
+      .start = start,
+      .goal = goal,
+      .lower = samples.min(),
+      .upper = samples.max(),
+      .valid =
+          [&](const JointVector& p) { return checkPosition(grid, p, limits) == Reachability::Reachable; },
+      .segment_valid = segment_free,
+      .range = config.rrt_range_m,
+      .iterations = config.rrt_iterations,
+      .safety_time_s = config.safety_time_s,
+      .seed = seed};
   const RrtResult found = rrtConnect(query);
   plan.iterations = found.iterations;
   if (found.path.empty())
     plan.verdict = found.timed_out ? Reachability::TimedOut : Reachability::NoPath;
   else
-    setWaypoints(plan, shortened(found.path, segment_free), from, to);
+    setWaypoints(plan, shortened(Path(found.path.begin(), found.path.end()), segment_free, kSpacing_m), from,
+                 to);
   return plan;
 }
 

@@ -19,8 +19,8 @@ namespace ob = ompl::base;
 namespace og = ompl::geometric;
 using Point = ob::RealVectorStateSpace::StateType;
 
-Eigen::Vector3d position(const ob::State* state) {
-  return Eigen::Vector3d::Map(state->as<Point>()->values);
+JointVector valuesOf(const ob::State* state, int size) {
+  return JointVector::Map(state->as<Point>()->values, size);
 }
 
 /// Uniform samples from our own generator: OMPL's are seeded once for the whole process. The mapping to reals
@@ -32,13 +32,13 @@ class SeededSampler : public ob::StateSampler {
 
   void sampleUniform(ob::State* state) override {
     const auto& bounds = space_->as<ob::RealVectorStateSpace>()->getBounds();
-    for (int axis = 0; axis < 3; ++axis)
+    for (unsigned axis = 0; axis < bounds.low.size(); ++axis)
       value(state, axis) = bounds.low[axis] + unit() * (bounds.high[axis] - bounds.low[axis]);
     ++drawn_;
   }
   void sampleUniformNear(ob::State* state, const ob::State* near, double distance) override {
-    for (int axis = 0; axis < 3; ++axis)
-      value(state, axis) = position(near)[axis] + (2.0 * unit() - 1.0) * distance;
+    for (unsigned axis = 0; axis < space_->getDimension(); ++axis)
+      value(state, axis) = near->as<Point>()->values[axis] + (2.0 * unit() - 1.0) * distance;
     space_->enforceBounds(state);
     ++drawn_;
   }
@@ -48,7 +48,7 @@ class SeededSampler : public ob::StateSampler {
 
  private:
   double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
-  static double& value(ob::State* state, int axis) { return state->as<Point>()->values[axis]; }
+  static double& value(ob::State* state, unsigned axis) { return state->as<Point>()->values[axis]; }
 
   std::mt19937_64 engine_;
   int& drawn_;
@@ -60,7 +60,8 @@ class SegmentValidator : public ob::MotionValidator {
       : MotionValidator(space), query_(query) {}
 
   bool checkMotion(const ob::State* from, const ob::State* to) const override {
-    return query_.segment_valid(position(from), position(to));
+    const auto size = static_cast<int>(query_.start.size());
+    return query_.segment_valid(valuesOf(from, size), valuesOf(to, size));
   }
   bool checkMotion(const ob::State* from, const ob::State* to,
                    std::pair<ob::State*, double>& last_valid) const override {
@@ -77,18 +78,20 @@ class SegmentValidator : public ob::MotionValidator {
 };
 
 ob::SpaceInformationPtr makeSpace(const RrtQuery& query, int& drawn) {
-  auto space = std::make_shared<ob::RealVectorStateSpace>(3);
-  ob::RealVectorBounds bounds(3);
-  for (int axis = 0; axis < 3; ++axis) {
-    bounds.setLow(axis, query.bounds.min()[axis]);
-    bounds.setHigh(axis, query.bounds.max()[axis]);
+  const auto size = static_cast<int>(query.start.size());
+  auto space = std::make_shared<ob::RealVectorStateSpace>(size);
+  ob::RealVectorBounds bounds(size);
+  for (int axis = 0; axis < size; ++axis) {
+    bounds.setLow(axis, query.lower[axis]);
+    bounds.setHigh(axis, query.upper[axis]);
   }
   space->setBounds(bounds);
   space->setStateSamplerAllocator([&query, &drawn](const ob::StateSpace* s) {
     return std::make_shared<SeededSampler>(s, query.seed, drawn);
   });
   auto info = std::make_shared<ob::SpaceInformation>(space);
-  info->setStateValidityChecker([&query](const ob::State* s) { return query.valid(position(s)); });
+  info->setStateValidityChecker(
+      [&query, size](const ob::State* s) { return query.valid(valuesOf(s, size)); });
   info->setMotionValidator(std::make_shared<SegmentValidator>(info, query));
   info->setup();
   return info;
@@ -96,7 +99,7 @@ ob::SpaceInformationPtr makeSpace(const RrtQuery& query, int& drawn) {
 
 ob::ProblemDefinitionPtr makeProblem(const ob::SpaceInformationPtr& info, const RrtQuery& query) {
   ob::ScopedState<ob::RealVectorStateSpace> start(info), goal(info);
-  for (int axis = 0; axis < 3; ++axis) {
+  for (int axis = 0; axis < query.start.size(); ++axis) {
     start[axis] = query.start[axis];
     goal[axis] = query.goal[axis];
   }
@@ -114,7 +117,7 @@ RrtResult rrtConnect(const RrtQuery& query) {
   const ob::SpaceInformationPtr info = makeSpace(query, result.iterations);
   const ob::ProblemDefinitionPtr problem = makeProblem(info, query);
   og::RRTConnect planner(info);
-  planner.setRange(query.range_m);
+  planner.setRange(query.range);
   planner.setProblemDefinition(problem);
   // OMPL's default structure draws its pivots from the process-wide generator.
   planner.setNearestNeighbors<ompl::NearestNeighborsLinear>();
@@ -132,7 +135,7 @@ RrtResult rrtConnect(const RrtQuery& query) {
   if (planner.solve(done) != ob::PlannerStatus::EXACT_SOLUTION) return result;
   result.timed_out = false;
   for (const ob::State* state : problem->getSolutionPath()->as<og::PathGeometric>()->getStates())
-    result.path.push_back(position(state));
+    result.path.push_back(valuesOf(state, static_cast<int>(query.start.size())));
   return result;
 }
 

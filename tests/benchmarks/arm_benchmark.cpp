@@ -1,18 +1,20 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <chrono>
 #include <numbers>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "core/motion/arm_collision.h"
+#include "core/motion/arm_path.h"
 #include "core/motion/inverse_kinematics.h"
 #include "io/robot_file.h"
 
 // Inverse kinematics: all solutions of camera poses that random configurations reach, from another random
 // configuration. Collision: the SMART SiX beside a table in the volume of section 10, of which a room of free
-// space in the middle is known. One thread.
+// space in the middle is known. Paths: between random views over that table. One thread.
 
 namespace vantage {
 namespace {
@@ -93,10 +95,11 @@ const RobotModel& smartSix() {
   return arm;
 }
 
-/// On the arm's side of the table nothing else stands.
+/// On the arm's side of the table nothing else stands, and nothing hangs above it.
 ArmPlace besideTheTable() {
   return {Pose(Eigen::Translation3d(0.0, -0.85, 0.0)),
-          {Box(Eigen::Vector3d(-1.0, -2.0, -0.1), Eigen::Vector3d(1.0, -0.66, 2.0))}};
+          {Box(Eigen::Vector3d(-1.5, -2.0, -0.1), Eigen::Vector3d(1.5, -0.66, 2.5)),
+           Box(Eigen::Vector3d(-1.5, -0.7, 1.0), Eigen::Vector3d(1.5, 1.0, 2.5))}};
 }
 
 /// Configurations that are free, or any.
@@ -140,6 +143,44 @@ void BM_FirstCollisionMap(benchmark::State& state) {
   state.counters["cells_written"] = static_cast<double>(written);
 }
 BENCHMARK(BM_FirstCollisionMap)->Unit(benchmark::kMillisecond);
+
+/// From one view of the table's objects to the next, all of them reachable by a solution without contact.
+void BM_ArmPath(benchmark::State& state) {
+  const InverseKinematics inverse(smartSix());
+  ArmCollision collision(smartSix(), besideTheTable());
+  collision.update(tableCells(false));
+  const Pose T_base_world = besideTheTable().T_world_base.inverse();
+  JointVector at(6);
+  at << 1.5, -0.5, -1.9, 0.0, 0.9, 0.0;
+  std::mt19937_64 random(1);
+  const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  std::vector<double> times_ms;
+  int found = 0, straight = 0;
+  std::uint64_t seed = 0;
+  using Clock = std::chrono::steady_clock;
+  for (auto _ : state) {
+    const Eigen::Vector3d eye(-0.8 + 1.6 * unit(), -0.6 + 0.9 * unit(), 0.35 + 0.6 * unit());
+    const Pose view = T_base_world * lookAt(eye, {-0.5 + unit(), 0.3 * unit(), 0.1});
+    const auto begin = Clock::now();
+    const ArmPath path = planArmPath(inverse, collision, at, view, {}, ++seed);
+    const double ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+    if (path.free_solutions == 0) continue;
+    times_ms.push_back(ms);
+    found += path.found();
+    straight += path.straight;
+    if (path.found()) at = path.configurations.back();
+  }
+  if (times_ms.empty()) return;
+  std::sort(times_ms.begin(), times_ms.end());
+  const auto count = static_cast<double>(times_ms.size());
+  state.counters["queries"] = count;
+  state.counters["found"] = found / count;
+  state.counters["straight"] = straight / count;
+  state.counters["median_ms"] = times_ms[times_ms.size() / 2];
+  state.counters["p95_ms"] = times_ms[times_ms.size() * 95 / 100];
+  state.counters["max_ms"] = times_ms.back();
+}
+BENCHMARK(BM_ArmPath)->Iterations(300)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace vantage
