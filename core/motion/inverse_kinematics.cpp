@@ -65,6 +65,7 @@ std::optional<JointVector> descend(const RobotModel& model, const Pose& target, 
     frames = std::move(next_frames);
     error = next_error;
   }
+  if (error.norm() <= config.tolerance / 2) return q;
   return std::nullopt;
 }
 

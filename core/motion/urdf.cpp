@@ -228,7 +228,8 @@ void joinCapsules(std::vector<LinkShape>& shapes) {
     });
   };
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    if (shapes[i].kind != ShapeKind::Cylinder) continue;
+    constexpr double kShortest_m = 1e-5;  // below it both ends would be one sphere
+    if (shapes[i].kind != ShapeKind::Cylinder || shapes[i].length_m < kShortest_m) continue;
     const LinkShape cylinder = shapes[i];
     const auto [low, high] = endsOf(cylinder);
     if (sphereAt(low, cylinder.radius_m) == shapes.end() || sphereAt(high, cylinder.radius_m) == shapes.end())
