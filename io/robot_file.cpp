@@ -73,7 +73,8 @@ RobotModel loadRobot(const std::string& name_or_path, const std::string& camera_
   const std::vector<std::string> names = robotNames();
   if (std::find(names.begin(), names.end(), name_or_path) != names.end())
     return parsed(std::string(embeddedAsset(assetOf(name_or_path))), name_or_path, camera_link, {});
-  if (!fs::exists(name_or_path) && fs::path(name_or_path).extension() != kEnding)
+  std::error_code ignored;
+  if (!fs::exists(name_or_path, ignored) && fs::path(name_or_path).extension() != kEnding)
     throw InputError(name_or_path, "is neither the name of an arm (vantage robots) nor a URDF file" +
                                        suggestion(name_or_path, names));
   const auto meshes = [&](const std::string& file) {

@@ -11,6 +11,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace vantage {
 namespace {
@@ -31,26 +34,14 @@ std::shared_ptr<fcl::CollisionGeometryd> geometryOf(const LinkShape& shape) {
   return std::make_shared<fcl::Sphered>(shape.radius_m);
 }
 
-/// Farthest that any part of a shape can be from its frame's origin.
-double extentOf(const LinkShape& shape) {
-  const double half =
-      shape.kind == ShapeKind::Cuboid ? shape.size_m.norm() / 2 : shape.radius_m + shape.length_m / 2;
-  return shape.T_frame_shape.translation().norm() + half;
-}
-
-/// Farthest that any part of the arm can be from its base; sliding joints by their travel.
+/// Farthest that any part of the arm can be from its base.
 double reachOf(const RobotModel& model) {
-  std::vector<double> frame_reach;
-  double reach = 0.0;
-  for (const ArmJoint& joint : model.joints) {
-    reach += joint.T_parent_joint.translation().norm();
-    if (joint.prismatic) reach += std::max(std::abs(joint.lower), std::abs(joint.upper));
-    frame_reach.push_back(reach);
-  }
-  double farthest = reach;
+  const ArmJoint& first = model.joints.front();
+  double reach = first.T_parent_joint.translation().norm() + reachBeyond(model, 0);
+  if (first.prismatic) reach += std::max(std::abs(first.lower), std::abs(first.upper));
   for (const LinkShape& shape : model.shapes)
-    farthest = std::max(farthest, extentOf(shape) + (shape.frame < 0 ? 0.0 : frame_reach[shape.frame]));
-  return farthest;
+    if (shape.frame < 0) reach = std::max(reach, extentOf(shape));
+  return reach;
 }
 
 bool contains(const std::vector<Box>& boxes, const Eigen::Vector3d& p) {
@@ -60,18 +51,27 @@ bool contains(const std::vector<Box>& boxes, const Eigen::Vector3d& p) {
 }  // namespace
 
 struct ArmCollision::Data {
+  /// A shape where it is now.
+  struct Body {
+    LinkShape shape;
+    fcl::CollisionObjectd object;
+  };
+
   RobotModel model;
   ArmPlace place;
-  double reach_m = 0.0;
-  std::vector<fcl::CollisionObjectd> bodies;
+  std::vector<Body> bodies;
   std::vector<std::pair<int, int>> pairs;  ///< bodies that may meet
+  GridGeometry map;                        ///< of the collision grid
   /// Cells around the arm, a multiple of the map's from its corner; 1 = obstacle, 0 = free.
   GridGeometry cells;
   std::vector<std::uint8_t> obstacle;
   std::shared_ptr<octomap::OcTree> tree;  ///< of all of them, in cell coordinates: cell (i,j,k) is [i,i+1]...
   std::unique_ptr<fcl::CollisionObjectd> world;
 
-  void makeCells(const GridGeometry& map);
+  void makeCells();
+  void moveBodies(const JointVector& q);
+  ArmContact withObstacles() const;
+  ArmContact withItself() const;
   octomap::OcTreeKey keyOf(const Eigen::Vector3i& cell) const;
   /// A quick look before the exact one: no obstacle among the cells that a body's box overlaps.
   bool clearBox(const fcl::AABBd& box) const;
@@ -80,9 +80,9 @@ struct ArmCollision::Data {
 ArmCollision::ArmCollision(const RobotModel& model, const ArmPlace& place) : data_(std::make_unique<Data>()) {
   data_->model = model;
   data_->place = place;
-  data_->reach_m = reachOf(model);
-  for (const LinkShape& shape : model.shapes) data_->bodies.emplace_back(geometryOf(shape));
   const auto& shapes = model.shapes;
+  for (const LinkShape& shape : shapes)
+    data_->bodies.push_back({shape, fcl::CollisionObjectd(geometryOf(shape))});
   for (std::size_t a = 0; a < shapes.size(); ++a)
     for (std::size_t b = a + 1; b < shapes.size(); ++b)
       if (std::abs(shapes[a].frame - shapes[b].frame) > 1)
@@ -93,9 +93,15 @@ ArmCollision::ArmCollision(ArmCollision&&) noexcept = default;
 ArmCollision& ArmCollision::operator=(ArmCollision&&) noexcept = default;
 
 /// All cells that the arm can touch, on the grid of the map's.
-void ArmCollision::Data::makeCells(const GridGeometry& map) {
+void ArmCollision::Data::makeCells() {
+  constexpr double kMostCells = 1024.0;  // along an axis
+  const double reach_m = reachOf(model) + map.voxel_size_m;
+  if (!(2.0 * reach_m <= kMostCells * map.voxel_size_m))
+    throw std::invalid_argument("an arm that reaches " + std::to_string(reach_m) +
+                                " m is too long for collision cells of " + std::to_string(map.voxel_size_m) +
+                                " m; allowed: up to 512 cells");
   const Eigen::Vector3d base = place.T_world_base.translation();
-  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(reach_m + map.voxel_size_m);
+  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(reach_m);
   const Eigen::Vector3i low = map.voxelAt(base - reach), high = map.voxelAt(base + reach);
   cells.voxel_size_m = map.voxel_size_m;
   cells.origin_m = map.origin_m + map.voxel_size_m * low.cast<double>();
@@ -128,11 +134,14 @@ bool ArmCollision::Data::clearBox(const fcl::AABBd& box) const {
 
 std::size_t ArmCollision::update(const CollisionGrid& grid) {
   Data& d = *data_;
-  const GridGeometry& map = grid.geometry();
-  const bool fresh = d.cells.count() == 0;
-  if (fresh) d.makeCells(map);
+  if (d.cells.count() == 0) {
+    d.map = grid.geometry();
+    d.makeCells();
+  } else if (!(grid.geometry() == d.map)) {
+    throw std::invalid_argument("the collision cells of an arm keep the geometry of the first ones");
+  }
   std::size_t written = 0;
-  const Eigen::Vector3i first = map.voxelAt(d.cells.origin_m);
+  const Eigen::Vector3i first = d.map.voxelAt(d.cells.origin_m);
   for (std::size_t n = 0; n < d.cells.count(); ++n) {
     const Eigen::Vector3i cell = d.cells.voxel(n);
     const bool free = grid.freeCell(first + cell) || contains(d.place.clear_boxes, d.cells.center(cell));
@@ -150,29 +159,40 @@ std::size_t ArmCollision::update(const CollisionGrid& grid) {
   return written;
 }
 
-ArmContact ArmCollision::check(const JointVector& q) const {
-  Data& d = *data_;
-  const ArmFrames frames = forwardKinematics(d.model, q);
-  for (std::size_t b = 0; b < d.bodies.size(); ++b) {
-    const LinkShape& shape = d.model.shapes[b];
-    d.bodies[b].setTransform(d.place.T_world_base * frames.of(shape.frame) * shape.T_frame_shape);
-    d.bodies[b].computeAABB();
+void ArmCollision::Data::moveBodies(const JointVector& q) {
+  const ArmFrames frames = forwardKinematics(model, q);
+  for (Body& body : bodies) {
+    body.object.setTransform(place.T_world_base * frames.of(body.shape.frame) * body.shape.T_frame_shape);
+    body.object.computeAABB();
   }
-  const fcl::CollisionRequestd request;
-  for (std::size_t b = 0; b < d.bodies.size(); ++b) {
-    if (d.model.shapes[b].frame < 0) continue;
-    if (d.world && d.clearBox(d.bodies[b].getAABB())) continue;
+}
+
+ArmContact ArmCollision::Data::withObstacles() const {
+  for (const Body& body : bodies) {
+    if (body.shape.frame < 0) continue;
+    if (world && clearBox(body.object.getAABB())) continue;
     fcl::CollisionResultd result;
-    if (!d.world || fcl::collide(d.world.get(), &d.bodies[b], request, result) > 0)
-      return {ArmContact::With::Obstacle, d.model.shapes[b].link, {}};
-  }
-  for (const auto& [a, b] : d.pairs) {
-    fcl::CollisionResultd result;
-    if (d.bodies[a].getAABB().overlap(d.bodies[b].getAABB()) &&
-        fcl::collide(&d.bodies[a], &d.bodies[b], request, result) > 0)
-      return {ArmContact::With::Itself, d.model.shapes[a].link, d.model.shapes[b].link};
+    if (!world || fcl::collide(world.get(), &body.object, {}, result) > 0)
+      return {ArmContact::With::Obstacle, body.shape.link, {}};
   }
   return {};
+}
+
+ArmContact ArmCollision::Data::withItself() const {
+  for (const auto& [a, b] : pairs) {
+    const Body &first = bodies[a], &second = bodies[b];
+    fcl::CollisionResultd result;
+    if (first.object.getAABB().overlap(second.object.getAABB()) &&
+        fcl::collide(&first.object, &second.object, {}, result) > 0)
+      return {ArmContact::With::Itself, first.shape.link, second.shape.link};
+  }
+  return {};
+}
+
+ArmContact ArmCollision::check(const JointVector& q) const {
+  data_->moveBodies(q);
+  const ArmContact contact = data_->withObstacles();
+  return contact.free() ? data_->withItself() : contact;
 }
 
 }  // namespace vantage

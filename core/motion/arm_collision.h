@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,8 +29,9 @@ struct ArmContact {
 
 /// An arm's bodies against each other and against the collision cells (FCL). Occupied and unknown cells are
 /// obstacles, and so is everything beyond the mapped volume; cells whose centre lies in a vouched box are
-/// free. Bodies of the base stand where they stand and are not asked about cells. Bodies of neighbouring
-/// joints never collide with each other: they are built to touch.
+/// free, whatever the map says (it may have seen the arm). Bodies of the base stand where they stand and are
+/// not asked about cells. Bodies of neighbouring joints never collide with each other: they are built to
+/// touch.
 class ArmCollision {
  public:
   ArmCollision(const RobotModel& model, const ArmPlace& place);
@@ -40,7 +41,8 @@ class ArmCollision {
 
   /// Takes over the cells; only those that differ from the last call are written. Until the first call
   /// everything but the vouched boxes is an obstacle.
-  /// \return cells written.
+  /// \return cells written. \throws std::invalid_argument for cells of another geometry than the first ones,
+  /// or for an arm that reaches more than 512 cells.
   std::size_t update(const CollisionGrid& grid);
 
   /// First contact found: obstacles, from the base on, then the arm itself. Not for several threads at once.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <stdexcept>
 
 #include "core/geometry/check.h"
 #include "core/motion/rrt_connect.h"
@@ -12,24 +14,6 @@ namespace vantage {
 namespace {
 
 constexpr double kSpacing_rad = 0.2;  // of the vertices that may be joined when a path is shortened
-
-double extentOf(const LinkShape& shape) {
-  return shape.kind == ShapeKind::Cuboid ? shape.size_m.norm() / 2 : shape.radius_m + shape.length_m / 2;
-}
-
-/// Farthest that anything moved by joint `first` can be from the joint's origin.
-double reachBeyond(const RobotModel& model, int first) {
-  double chain = 0.0, farthest = 0.0;
-  for (int frame = first; frame < model.jointCount(); ++frame) {
-    if (frame > first) chain += model.joints[frame].T_parent_joint.translation().norm();
-    if (model.joints[frame].prismatic)
-      chain += std::max(std::abs(model.joints[frame].lower), std::abs(model.joints[frame].upper));
-    for (const LinkShape& shape : model.shapes)
-      if (shape.frame == frame)
-        farthest = std::max(farthest, chain + shape.T_frame_shape.translation().norm() + extentOf(shape));
-  }
-  return std::max(farthest, chain + model.T_tip_camera.translation().norm());
-}
 
 /// Ranges of the samples: joints of many turns stay near where the motion takes place.
 void setRanges(const RobotModel& model, RrtQuery& query) {
@@ -43,6 +27,70 @@ void setRanges(const RobotModel& model, RrtQuery& query) {
     query.upper[i] = std::min(joint.upper, high + std::numbers::pi);
   }
 }
+
+JointVector clampedToLimits(const RobotModel& model, JointVector q) {
+  for (int i = 0; i < model.jointCount(); ++i)
+    q[i] = std::clamp(q[i], model.joints[i].lower, model.joints[i].upper);
+  return q;
+}
+
+/// Solutions of the view without contact, nearest first; the facts go into `result`.
+std::vector<JointVector> freeSolutions(const InverseKinematics& inverse, const ArmCollision& collision,
+                                       const JointVector& start, const Pose& T_base_camera, ArmPath& result) {
+  std::vector<JointVector> free;
+  for (const JointVector& solution : inverse.solve(T_base_camera, start)) {
+    ++result.solutions;
+    const ArmContact contact = collision.check(solution);
+    if (contact.free())
+      free.push_back(solution);
+    else if (result.contact.free())
+      result.contact = contact;
+  }
+  result.free_solutions = static_cast<int>(free.size());
+  return free;
+}
+
+/// Looks for a way to one of several configurations.
+struct Search {
+  const RobotModel& model;
+  const ArmCollision& collision;
+  const ArmPathConfig& config;
+  std::uint64_t seed;
+
+  bool segmentFree(const JointVector& a, const JointVector& b) const {
+    return freeMotion(model, collision, a, b, config.check_step_m);
+  }
+  void goStraight(const JointVector& start, const std::vector<JointVector>& goals, ArmPath& result) const {
+    const auto goal =
+        std::find_if(goals.begin(), goals.end(), [&](const JointVector& q) { return segmentFree(start, q); });
+    if (goal == goals.end()) return;
+    result.straight = true;
+    result.configurations = {start, *goal};
+  }
+  void goAround(const JointVector& start, const std::vector<JointVector>& goals, ArmPath& result) const {
+    for (std::size_t g = 0; g < goals.size() && !result.found(); ++g) {
+      const RrtResult found = rrtConnect(queryFor(start, goals[g], g));
+      result.iterations += found.iterations;
+      result.timed_out = result.timed_out || found.timed_out;
+      if (found.path.empty()) continue;
+      const auto segment_free = [&](const JointVector& a, const JointVector& b) { return segmentFree(a, b); };
+      result.configurations = shortened(found.path, segment_free, kSpacing_rad);
+    }
+  }
+  RrtQuery queryFor(const JointVector& start, const JointVector& goal, std::size_t index) const {
+    RrtQuery query;
+    query.start = start;
+    query.goal = goal;
+    setRanges(model, query);
+    query.valid = [&](const JointVector& q) { return collision.check(q).free(); };
+    query.segment_valid = [&](const JointVector& a, const JointVector& b) { return segmentFree(a, b); };
+    query.range = config.rrt_range_rad;
+    query.iterations = config.rrt_iterations;
+    query.safety_time_s = config.safety_time_s;
+    query.seed = seed + index * 0x9e3779b97f4a7c15u;  // a stream of its own for each goal
+    return query;
+  }
+};
 
 }  // namespace
 
@@ -64,68 +112,34 @@ double sweepBound(const RobotModel& model, const JointVector& step) {
 bool freeMotion(const RobotModel& model, const ArmCollision& collision, const JointVector& from,
                 const JointVector& to, double check_step_m) {
   const JointVector step = to - from;
-  const int parts = std::max(1, static_cast<int>(std::ceil(sweepBound(model, step) / check_step_m)));
+  const auto parts =
+      std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(sweepBound(model, step) / check_step_m)));
   // The ends first: most motions that fail, fail there.
   if (!collision.check(to).free() || !collision.check(from).free()) return false;
-  for (int p = 1; p < parts; ++p)
-    if (!collision.check(from + step * (static_cast<double>(p) / parts)).free()) return false;
+  for (std::int64_t p = 1; p < parts; ++p)
+    if (!collision.check(from + step * (static_cast<double>(p) / static_cast<double>(parts))).free())
+      return false;
   return true;
 }
 
 ArmPath planArmPath(const InverseKinematics& inverse, const ArmCollision& collision, const JointVector& from,
                     const Pose& T_base_camera, const ArmPathConfig& config, std::uint64_t seed) {
   config.validate();
-  const RobotModel& model = inverse.model();
-  if (!model.withinLimits(from)) throw std::invalid_argument("the arm's start lies beyond its joint limits");
+  if (!inverse.model().withinLimits(from))
+    throw std::invalid_argument("the arm's start lies beyond its joint limits");
+  const JointVector start = clampedToLimits(inverse.model(), from);
   ArmPath result;
-  std::vector<JointVector> goals;
-  const std::vector<JointVector> solutions = inverse.solve(T_base_camera, from);
-  result.solutions = static_cast<int>(solutions.size());
-  for (const JointVector& solution : solutions) {
-    const ArmContact contact = collision.check(solution);
-    if (contact.free())
-      goals.push_back(solution);
-    else if (result.contact.free())
-      result.contact = contact;
-  }
-  result.free_solutions = static_cast<int>(goals.size());
+  std::vector<JointVector> goals = freeSolutions(inverse, collision, start, T_base_camera, result);
   if (goals.empty()) return result;
-  if (const ArmContact start = collision.check(from); !start.free()) {
-    result.contact = start;
+  if (const ArmContact contact = collision.check(start); !contact.free()) {
+    result.contact = contact;
+    result.start_blocked = true;
     return result;
   }
   if (static_cast<int>(goals.size()) > config.goals) goals.resize(config.goals);
-
-  const auto segment_free = [&](const JointVector& a, const JointVector& b) {
-    return freeMotion(model, collision, a, b, config.check_step_m);
-  };
-  for (const JointVector& goal : goals) {
-    ++result.goals_tried;
-    if (!segment_free(from, goal)) continue;
-    result.straight = true;
-    result.configurations = {from, goal};
-    return result;
-  }
-  result.goals_tried = 0;
-  for (const JointVector& goal : goals) {
-    ++result.goals_tried;
-    RrtQuery query;
-    query.start = from;
-    query.goal = goal;
-    setRanges(model, query);
-    query.valid = [&](const JointVector& q) { return collision.check(q).free(); };
-    query.segment_valid = segment_free;
-    query.range = config.rrt_range_rad;
-    query.iterations = config.rrt_iterations;
-    query.safety_time_s = config.safety_time_s;
-    query.seed = seed;
-    const RrtResult found = rrtConnect(query);
-    result.iterations += found.iterations;
-    result.timed_out = result.timed_out || found.timed_out;
-    if (found.path.empty()) continue;
-    result.configurations = shortened(found.path, segment_free, kSpacing_rad);
-    break;
-  }
+  const Search search{inverse.model(), collision, config, seed};
+  search.goStraight(start, goals, result);
+  if (!result.found()) search.goAround(start, goals, result);
   return result;
 }
 

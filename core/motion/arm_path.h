@@ -20,16 +20,16 @@ struct ArmPathConfig {
 };
 
 /// A motion of the arm to a camera pose, or the facts that say why there is none: no solution (out of reach),
-/// no free one (the last contact tells with what), or no way to any of them.
+/// no free one or a start that is not (the contact tells with what), or no way to any of them.
 struct ArmPath {
   std::vector<JointVector> configurations;  ///< corners of a path of straight joint motions; empty if none
   int solutions = 0;                        ///< of the inverse kinematics, within the limits
   int free_solutions = 0;                   ///< of them, without contact
-  ArmContact contact;  ///< of the first solution that is not free, or of a start that is not
-  int goals_tried = 0;
-  bool straight = false;   ///< one joint motion does it
-  int iterations = 0;      ///< of RRT-Connect, all goals together
-  bool timed_out = false;  ///< the wall clock struck a search
+  ArmContact contact;          ///< of the start if that is not free, else of the first such solution
+  bool start_blocked = false;  ///< the start is not free; the solutions were not looked at any further
+  bool straight = false;       ///< one joint motion does it
+  int iterations = 0;          ///< of RRT-Connect, all goals together
+  bool timed_out = false;      ///< the wall clock struck a search
   bool found() const { return !configurations.empty(); }
 };
 
@@ -42,8 +42,8 @@ bool freeMotion(const RobotModel& model, const ArmCollision& collision, const Jo
                 const JointVector& to, double check_step_m);
 
 /// Straight joint motion to one of the nearest solutions, else RRT-Connect (seeded, bounded iterations) and
-/// shortcutting. Joints stay within their limits; `from` has to. The same arguments give the same path,
-/// unless the wall clock struck. \param T_base_camera in the frame of the arm's base.
+/// shortcutting. Joints stay within their limits; `from` has to, to 1e-9 rad or m. The same arguments give
+/// the same path, unless the wall clock struck. \param T_base_camera in the frame of the arm's base.
 ArmPath planArmPath(const InverseKinematics& inverse, const ArmCollision& collision, const JointVector& from,
                     const Pose& T_base_camera, const ArmPathConfig& config, std::uint64_t seed);
 

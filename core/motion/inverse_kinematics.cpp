@@ -106,7 +106,7 @@ void IkConfig::validate() const {
   requireInRange("robot.ik_seeds", seeds, 0, 100000);
   requireInRange("robot.ik_iterations", iterations, 1, 100000);
   requireInRange("robot.ik_tolerance", tolerance, 1e-12, 1e-2);
-  requireInRange("robot.ik_distinct_rad", distinct_rad, 0.0, 1.0);
+  requireInRange("robot.ik_distinct", distinct, 0.0, 1.0);
 }
 
 struct InverseKinematics::Data {
@@ -130,9 +130,12 @@ void InverseKinematics::Data::take(JointVector q, const Pose& target, const Join
     if (!value) return;
     q[i] = *value;
   }
-  if (!reaches(model, q, target, closed_form ? 1e-6 : config.tolerance)) return;
+  // The closed form gives each solution once, or twice where two meet.
+  const double tolerance = closed_form ? 1e-6 : config.tolerance;
+  const double distinct = closed_form ? 1e-6 : config.distinct;
+  if (!reaches(model, q, target, tolerance)) return;
   for (const JointVector& known : solutions)
-    if ((known - q).cwiseAbs().maxCoeff() < config.distinct_rad) return;
+    if ((known - q).cwiseAbs().maxCoeff() <= distinct) return;
   solutions.push_back(std::move(q));
 }
 

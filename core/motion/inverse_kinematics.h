@@ -8,12 +8,12 @@
 
 namespace vantage {
 
-/// Of the numeric solver; the analytic one has no choices.
+/// Of the numeric solver; the closed form has no choices.
 struct IkConfig {
-  int seeds = 24;              ///< starts beside the current configuration, 0 ..
-  int iterations = 60;         ///< per start, >= 1
-  double tolerance = 1e-7;     ///< a solution's error, m and rad, > 0
-  double distinct_rad = 1e-3;  ///< solutions nearer than that in every joint are one
+  int seeds = 24;           ///< starts beside the current configuration, 0 ..
+  int iterations = 60;      ///< per start, >= 1
+  double tolerance = 1e-7;  ///< a solution's error, m and rad, > 0
+  double distinct = 1e-3;   ///< solutions at most that far apart in every joint, rad or m, are one, >= 0
   bool operator==(const IkConfig&) const = default;
   /// \throws std::invalid_argument naming field, value and range.
   void validate() const;
@@ -21,8 +21,9 @@ struct IkConfig {
 
 /// Joint configurations that put the camera at a pose. Six revolute joints with a spherical wrist behind two
 /// parallel ones (the usual industrial arm) are solved in closed form: every solution is found, up to eight,
-/// by rotations about axes alone, so that any such URDF fits (Paden-Kahan subproblems). Other arms are solved
-/// by Levenberg-Marquardt from many starts.
+/// by rotations about axes alone, so that any such URDF fits (Paden-Kahan subproblems). Where a joint is
+/// free, because the wrist lies on its axis or the wrist is stretched, a whole line of solutions exists; of
+/// it every 30 deg from `near` are given. Other arms are solved by Levenberg-Marquardt from many starts.
 class InverseKinematics {
  public:
   /// Keeps a copy of the model. \throws std::invalid_argument as IkConfig::validate().
@@ -32,12 +33,11 @@ class InverseKinematics {
   InverseKinematics& operator=(InverseKinematics&&) noexcept;
 
   const RobotModel& model() const;
-  /// Closed form, hence complete.
+  /// Closed form.
   bool analytic() const;
   /// All solutions found within the joint limits, nearest to `near` first: the one whose slowest joint
-  /// arrives earliest. Of the full turns that a joint may add, the one nearest to `near` is taken; where the
-  /// wrist is stretched and two joints share one axis, the first of them stays as in `near`. Empty if there
-  /// is none. `near` has one value a joint. Same arguments, same result; may run on many threads.
+  /// arrives earliest. Of the full turns that a joint may add, the one nearest to `near` is taken. Empty if
+  /// there is none. `near` has one value a joint. Same arguments, same result; may run on many threads.
   std::vector<JointVector> solve(const Pose& T_base_camera, const JointVector& near) const;
 
  private:

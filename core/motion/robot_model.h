@@ -48,6 +48,9 @@ struct LinkShape {
   double length_m = 0.0;  ///< of a cylinder, or of the straight part of a capsule
 };
 
+/// Farthest that any part of a shape can be from the origin of its frame, metres.
+double extentOf(const LinkShape& shape);
+
 /// A description that makes no arm: which link or joint, what is wrong, what to do.
 class RobotModelError : public std::invalid_argument {
  public:
@@ -96,5 +99,9 @@ Pose jointMotion(const ArmJoint& joint, double value);
 /// Forward kinematics. `q` has one value a joint; limits are not asked.
 ArmFrames forwardKinematics(const RobotModel& model, const JointVector& q);
 Pose cameraPose(const RobotModel& model, const JointVector& q);
+
+/// Farthest that the camera or anything else that joint `first` moves can be from the origin of that joint's
+/// frame, in any configuration within the limits, metres: lengths of the chain added up.
+double reachBeyond(const RobotModel& model, int first);
 
 }  // namespace vantage

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace vantage {
 namespace {
@@ -11,19 +12,31 @@ using Eigen::Vector3d;
 
 constexpr double kTiny = 1e-9;
 
-/// Up to two angles.
+/// Angles of one joint: none, one or two; where any will do, a whole turn in steps of 30 deg.
 struct Angles {
-  std::array<double, 2> value = {};
+  static constexpr int kSteps = 12;
+  std::array<double, kSteps> value = {};
   int count = 0;
   const double* begin() const { return value.data(); }
   const double* end() const { return value.data() + count; }
 };
 
-/// a cos x + b sin x = c. `free` where every angle solves it. Where the two solutions meet, rounding may put
-/// c a hair beyond the reach; one solution remains.
+Angles oneAngle(double angle) {
+  return {{angle}, 1};
+}
+
+Angles anyAngle(double from) {
+  Angles angles;
+  for (int i = 0; i < Angles::kSteps; ++i)
+    angles.value[angles.count++] = from + i * 2.0 * std::numbers::pi / Angles::kSteps;
+  return angles;
+}
+
+/// a cos x + b sin x = c. Where every angle solves it, they start at `free`. Where the two solutions meet,
+/// rounding may put c a hair beyond the reach; one solution remains.
 Angles solveTrigonometric(double a, double b, double c, double free) {
   const double reach = std::hypot(a, b);
-  if (reach < kTiny) return std::abs(c) < kTiny ? Angles{{free}, 1} : Angles{};
+  if (reach < kTiny) return std::abs(c) < kTiny ? anyAngle(free) : Angles{};
   const double ratio = c / reach;
   if (!(std::abs(ratio) <= 1.0 + 1e-10)) return {};
   const double middle = std::atan2(b, a), half = std::acos(std::clamp(ratio, -1.0, 1.0));
@@ -37,11 +50,11 @@ Angles turnToComponent(const Vector3d& axis, const Vector3d& moved, const Vector
   return solveTrigonometric(along.dot(moved) - fixed, along.dot(axis.cross(moved)), c - fixed, free);
 }
 
-/// Angle about `axis` from one vector to another; empty if one of them lies on the axis.
-std::optional<double> turnBetween(const Vector3d& axis, const Vector3d& from, const Vector3d& to) {
+/// Angle about `axis` from one vector to another; any where one of them lies on the axis, from `free` on.
+Angles turnBetween(const Vector3d& axis, const Vector3d& from, const Vector3d& to, double free) {
   const Vector3d a = from - axis * axis.dot(from), b = to - axis * axis.dot(to);
-  if (a.norm() < kTiny || b.norm() < kTiny) return std::nullopt;
-  return std::atan2(axis.dot(a.cross(b)), a.dot(b));
+  if (a.norm() < kTiny || b.norm() < kTiny) return anyAngle(free);
+  return oneAngle(std::atan2(axis.dot(a.cross(b)), a.dot(b)));
 }
 
 Matrix3d turn(const Vector3d& axis, double angle) {
@@ -64,13 +77,13 @@ std::optional<SphericalWrist> SphericalWrist::of(const RobotModel& model) {
   SphericalWrist arm;
   const ArmFrames zero = forwardKinematics(model, JointVector::Zero(6));
   for (int i = 0; i < 6; ++i) {
-    arm.axis_[i] = zero.T_base_joint[i].linear() * model.joints[i].axis;
-    arm.point_[i] = zero.T_base_joint[i].translation();
+    arm.axis_[i] = {zero.T_base_joint[i].linear() * model.joints[i].axis, zero.T_base_joint[i].translation()};
   }
-  if (arm.axis_[1].cross(arm.axis_[2]).norm() > kTiny) return std::nullopt;
-  const auto wrist = meeting(arm.point_[3], arm.axis_[3], arm.point_[4], arm.axis_[4]);
-  if (!wrist || (*wrist - arm.point_[5]).cross(arm.axis_[5]).norm() > kTiny ||
-      arm.axis_[4].cross(arm.axis_[5]).norm() < 1e-3)
+  const auto& axis = arm.axis_;
+  if (axis[1].direction.cross(axis[2].direction).norm() > kTiny) return std::nullopt;
+  const auto wrist = meeting(axis[3].point, axis[3].direction, axis[4].point, axis[4].direction);
+  if (!wrist || (*wrist - axis[5].point).cross(axis[5].direction).norm() > kTiny ||
+      axis[4].direction.cross(axis[5].direction).norm() < 1e-3)
     return std::nullopt;
   arm.wrist_ = *wrist;
   arm.T_camera_base_at_zero_ = zero.T_base_camera.inverse();
@@ -82,8 +95,10 @@ std::vector<JointVector> SphericalWrist::solve(const Pose& T_base_camera, const 
   // The motion of the whole arm, product of the six turns.
   const Pose motion = T_base_camera * T_camera_base_at_zero_;
   const Vector3d target = motion * wrist_;
-  const Vector3d &a1 = axis_[0], &a2 = axis_[1], &a3 = axis_[2];
-  const Vector3d &p1 = point_[0], &p2 = point_[1], &p3 = point_[2];
+  const auto& [a1, p1] = axis_[0];
+  const auto& [a2, p2] = axis_[1];
+  const auto& [a3, p3] = axis_[2];
+  const Vector3d upper_arm = p3 - p2, forearm = wrist_ - p3;
   JointVector q(6);
   // Joints 2 and 3 leave the wrist's component along their common direction as it is, so joint 1 has to make
   // it.
@@ -91,15 +106,16 @@ std::vector<JointVector> SphericalWrist::solve(const Pose& T_base_camera, const 
     q[0] = -back;
     const Vector3d reached = p1 + turn(a1, back) * (target - p1);
     // Joint 2 leaves the distance from its axis as it is, so joint 3 has to make it.
-    const Vector3d upper_arm = p3 - p2, forearm = wrist_ - p3;
     const double half_rest =
         ((reached - p2).squaredNorm() - upper_arm.squaredNorm() - forearm.squaredNorm()) / 2;
     for (const double elbow : turnToComponent(a3, forearm, upper_arm, half_rest, near[2])) {
       q[2] = elbow;
       const Vector3d bent = upper_arm + turn(a3, elbow) * forearm;
-      q[1] = turnBetween(a2, bent, reached - p2).value_or(near[1]);
-      const Matrix3d arm = turn(a1, q[0]) * turn(a2, q[1]) * turn(a3, elbow);
-      solveWrist(arm.transpose() * motion.linear(), near, q, solutions);
+      for (const double shoulder : turnBetween(a2, bent, reached - p2, near[1])) {
+        q[1] = shoulder;
+        const Matrix3d arm = turn(a1, q[0]) * turn(a2, shoulder) * turn(a3, elbow);
+        solveWrist(arm.transpose() * motion.linear(), near, q, solutions);
+      }
     }
   }
   return solutions;
@@ -108,17 +124,19 @@ std::vector<JointVector> SphericalWrist::solve(const Pose& T_base_camera, const 
 /// The last three joints make a rotation.
 void SphericalWrist::solveWrist(const Matrix3d& rotation, const JointVector& near, JointVector& q,
                                 std::vector<JointVector>& solutions) const {
-  const Vector3d &a4 = axis_[3], &a5 = axis_[4], &a6 = axis_[5];
+  const Vector3d &a4 = axis_[3].direction, &a5 = axis_[4].direction, &a6 = axis_[5].direction;
   const Vector3d tool = rotation * a6;
   const Vector3d across = a6.unitOrthogonal();
   for (const double bend : turnToComponent(a5, a6, a4, a4.dot(tool), near[4])) {
     q[4] = bend;
     const Vector3d bent = turn(a5, bend) * a6;
     const bool stretched = bent.cross(a4).norm() < 1e-8;  // axes 4 and 6 are one: any share of the turn does
-    q[3] = stretched ? near[3] : turnBetween(a4, bent, tool).value_or(near[3]);
-    const Matrix3d rest = (turn(a4, q[3]) * turn(a5, bend)).transpose() * rotation;
-    q[5] = turnBetween(a6, across, rest * across).value_or(near[5]);
-    solutions.push_back(q);
+    for (const double roll : stretched ? anyAngle(near[3]) : turnBetween(a4, bent, tool, near[3])) {
+      q[3] = roll;
+      const Matrix3d rest = (turn(a4, roll) * turn(a5, bend)).transpose() * rotation;
+      q[5] = *turnBetween(a6, across, rest * across, near[5]).begin();
+      solutions.push_back(q);
+    }
     if (stretched) break;
   }
 }

@@ -3,10 +3,11 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <mutex>
-#include <optional>
 #include <set>
+#include <string>
 
 #include "core/motion/robot_model.h"
 
@@ -41,6 +42,17 @@ std::string quoted(const std::string& name) {
   return "'" + name + "'";
 }
 
+/// No arm has longer parts; what is longer is a mistake, and would make maps without bound around it.
+bool plausible(double length_m) {
+  constexpr double kLongest_m = 100.0;
+  return length_m <= kLongest_m;
+}
+[[noreturn]] void refuseSize(const std::string& what, double length_m) {
+  refuse(what + " is " + std::to_string(length_m) +
+         " m; allowed: up to 100 m (are lengths or meshes in millimetres? a mesh takes scale=\"0.001 0.001 "
+         "0.001\")");
+}
+
 Eigen::Vector3d vectorOf(const urdf::Vector3& v) {
   return {v.x, v.y, v.z};
 }
@@ -50,6 +62,7 @@ Pose poseOf(const urdf::Pose& pose, const std::string& where) {
   const Eigen::Quaterniond rotation(pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z);
   if (!position.allFinite() || !rotation.coeffs().allFinite())
     refuse(where + ": its origin is not finite; give numbers for xyz and rpy");
+  if (!plausible(position.cwiseAbs().maxCoeff())) refuseSize(where + ": its origin", position.norm());
   return makePose(position, rotation);
 }
 
@@ -127,6 +140,8 @@ void setLimits(ArmJoint& arm, const urdf::Joint& joint) {
   if (!std::isfinite(arm.lower) || !std::isfinite(arm.upper) || arm.lower >= arm.upper)
     refuse(where + ": its limits are " + std::to_string(arm.lower) + " .. " + std::to_string(arm.upper) +
            "; the lower one has to lie below the upper one");
+  const double travel = std::max(std::abs(arm.lower), std::abs(arm.upper));
+  if (joint.type == urdf::Joint::PRISMATIC && !plausible(travel)) refuseSize(where + ": its travel", travel);
 }
 
 ArmJoint armJoint(const urdf::Joint& joint) {
@@ -162,7 +177,10 @@ Pose restMotion(const urdf::Joint& joint) {
 }
 
 double positive(double value, const std::string& what) {
-  if (std::isfinite(value) && value > 0.0) return value;
+  if (std::isfinite(value) && value > 0.0) {
+    if (!plausible(value)) refuseSize(what, value);
+    return value;
+  }
   refuse(what + " = " + std::to_string(value) + "; allowed: more than 0");
 }
 
@@ -205,6 +223,8 @@ LinkShape linkShape(const urdf::Link& link, const urdf::Collision& body, const P
       }
       const Eigen::Vector3d scale = vectorOf(mesh.scale);
       if (!scale.allFinite() || (scale.array() == 0.0).any()) refuse(where + ": its mesh has a scale of 0");
+      const double size_m = scale.cwiseAbs().cwiseProduct(box.sizes() / 2 + box.center().cwiseAbs()).norm();
+      if (!plausible(size_m)) refuseSize(where + ": its mesh " + quoted(mesh.filename), size_m);
       shape.T_frame_shape = shape.T_frame_shape * Eigen::Translation3d(scale.cwiseProduct(box.center()));
       shape.size_m = scale.cwiseAbs().cwiseProduct(box.sizes()).cwiseMax(1e-6);
       break;

@@ -96,6 +96,8 @@ TEST(Usage, RobotsShowsTheJointsOfOne) {
   EXPECT_TRUE(robot["closed_form"]);
   ASSERT_EQ(robot["joints"].size(), 6u);
   EXPECT_NEAR(robot["joints"][2]["lower"], -170.0 * 3.14159265358979 / 180.0, 1e-9);
+  EXPECT_EQ(vantage({"robots", "free"}).code, 0);
+  expectRefused(vantage({"robots", std::string(300, 'a')}), {"nor a URDF file"});
   expectRefused(vantage({"robots", "ur55"}), {"ur55", "did you mean 'ur5'?"});
   expectRefused(vantage({"robots", "ur5", "--camera-link", "eye"}),
                 {"ur5: has no link 'eye'", "camera_optical_frame"});

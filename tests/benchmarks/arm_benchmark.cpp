@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "core/motion/arm_path.h"
 #include "core/motion/inverse_kinematics.h"
 #include "io/robot_file.h"
+#include "tests/support/random_configuration.h"
 
 // Inverse kinematics: all solutions of camera poses that random configurations reach, from another random
 // configuration. Collision: the SMART SiX beside a table in the volume of section 10, of which a room of free
@@ -19,22 +19,15 @@
 namespace vantage {
 namespace {
 
+using test::randomConfiguration;
+
 struct Queries {
   explicit Queries(const RobotModel& arm) {
     std::mt19937_64 random(1);
     for (int n = 0; n < 1000; ++n) {
-      poses.push_back(cameraPose(arm, configuration(arm, random)));
-      near.push_back(configuration(arm, random));
+      poses.push_back(cameraPose(arm, randomConfiguration(arm, random)));
+      near.push_back(randomConfiguration(arm, random));
     }
-  }
-  static JointVector configuration(const RobotModel& arm, std::mt19937_64& random) {
-    JointVector q(arm.jointCount());
-    for (int i = 0; i < arm.jointCount(); ++i) {
-      const double low = std::max(arm.joints[i].lower, -std::numbers::pi),
-                   high = std::min(arm.joints[i].upper, std::numbers::pi);
-      q[i] = low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
-    }
-    return q;
   }
   std::vector<Pose> poses;
   std::vector<JointVector> near;
@@ -110,7 +103,7 @@ void BM_StateCheck(benchmark::State& state) {
   std::vector<JointVector> configurations;
   int drawn = 0;
   while (configurations.size() < 500 && ++drawn < 200'000) {
-    JointVector q = Queries::configuration(smartSix(), random);
+    JointVector q = randomConfiguration(smartSix(), random);
     if (!state.range(0) || collision.check(q).free()) configurations.push_back(std::move(q));
   }
   std::size_t n = 0;

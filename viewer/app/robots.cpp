@@ -5,6 +5,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "core/motion/inverse_kinematics.h"
 #include "io/robot_file.h"
@@ -23,10 +26,16 @@ struct RobotsOptions {
   std::string camera_link;
 };
 
-int listRobots(const GlobalOptions& global) {
+/// The free flyer and the embedded arms.
+std::vector<EmbeddedRobot> knownRobots() {
   std::vector<EmbeddedRobot> robots = {
       {"free", "Free-flying camera: goes where its ball fits, without an arm"}};
   for (EmbeddedRobot& robot : embeddedRobots()) robots.push_back(std::move(robot));
+  return robots;
+}
+
+int listRobots(const GlobalOptions& global) {
+  const std::vector<EmbeddedRobot> robots = knownRobots();
   std::size_t width = 0;
   for (const EmbeddedRobot& robot : robots) width = std::max(width, robot.name.size());
   Json list = Json::array();
@@ -73,7 +82,17 @@ void printRobot(const RobotModel& robot, bool closed_form) {
                limitText(joint, joint.upper), speedText(joint));
 }
 
+/// The free flyer has no joints to show.
+int showFreeFlyer(const GlobalOptions& global) {
+  const EmbeddedRobot robot = knownRobots().front();
+  if (global.json != "-") fmt::print("{}: {}\n", robot.name, robot.description);
+  writeJson(global.json,
+            {{"name", robot.name}, {"description", robot.description}, {"joints", Json::array()}});
+  return 0;
+}
+
 int showRobot(const GlobalOptions& global, const RobotsOptions& options) {
+  if (options.robot == knownRobots().front().name) return showFreeFlyer(global);
   const RobotModel robot = loadRobot(options.robot, options.camera_link);
   const bool closed_form = InverseKinematics(robot).analytic();
   if (global.json != "-") printRobot(robot, closed_form);

@@ -34,6 +34,12 @@ RobotModel slidingBall(double radius_m) {
   return model;
 }
 
+JointVector randomPosition(std::mt19937_64& random) {
+  JointVector q(3);
+  for (int axis = 0; axis < 3; ++axis) q[axis] = -1.2 + 2.4 * static_cast<double>(random() >> 11) * 0x1p-53;
+  return q;
+}
+
 /// Free space with blocks and unknown in it.
 StateGrid clutteredWorld(std::uint64_t seed) {
   StateGrid states = freeWorld();
@@ -55,9 +61,7 @@ TEST(ArmCollision, BallAgreesWithTheFreeFlyersCells) {
     arm.update(grid);
     std::mt19937_64 random(seed);
     for (int n = 0; n < 2000; ++n) {
-      JointVector q(3);
-      for (int axis = 0; axis < 3; ++axis)
-        q[axis] = -1.2 + 2.4 * static_cast<double>(random() >> 11) * 0x1p-53;
+      const JointVector q = randomPosition(random);
       const bool expected = grid.freeBall(q, 0.08);
       EXPECT_EQ(arm.check(q).free(), expected) << q.transpose();
       (expected ? free : blocked) += 1;
@@ -78,8 +82,7 @@ TEST(ArmCollision, UpdatesWriteOnlyWhatChangedAndEndTheSame) {
   fresh.update(after);
   std::mt19937_64 random(1);
   for (int n = 0; n < 2000; ++n) {
-    JointVector q(3);
-    for (int axis = 0; axis < 3; ++axis) q[axis] = -1.2 + 2.4 * static_cast<double>(random() >> 11) * 0x1p-53;
+    const JointVector q = randomPosition(random);
     EXPECT_EQ(updated.check(q).with, fresh.check(q).with) << q.transpose();
   }
 }
@@ -106,6 +109,15 @@ TEST(ArmCollision, VouchedBoxesAreFree) {
   EXPECT_TRUE(arm.check(q).free());
   q[1] = 0.6;
   EXPECT_EQ(arm.check(q).with, With::Obstacle);
+}
+
+TEST(ArmCollision, RefusesOtherCellsAndArmsWithoutEnd) {
+  ArmCollision arm(slidingBall(0.08), {});
+  arm.update(CollisionGrid(freeWorld(), 0.04));
+  EXPECT_THROW(arm.update(CollisionGrid(freeWorld(), 0.06)), std::invalid_argument);
+  RobotModel endless = slidingBall(0.08);
+  endless.joints[0].T_parent_joint.translation().x() = 1e12;
+  EXPECT_THROW(ArmCollision(endless, {}).update(CollisionGrid(freeWorld(), 0.04)), std::invalid_argument);
 }
 
 /// All free around an arm.

@@ -86,6 +86,18 @@ TEST(ArmPath, GoesAroundAWallOfTheUnknown) {
   }
 }
 
+/// A hair beyond a limit, as rounding leaves it: the way around is found all the same.
+TEST(ArmPath, StartAHairBeyondALimitIsTakenBack) {
+  Cell cell(walled());
+  cell.start = cell.plan(kRight, 1).configurations.back();
+  const double upper = cell.inverse.model().joints[5].upper;
+  cell.start[5] = upper + 5e-10;
+  const ArmPath path = cell.plan(kLeft, 1);
+  ASSERT_TRUE(path.found());
+  EXPECT_FALSE(path.straight);
+  EXPECT_EQ(path.configurations.front()[5], upper);
+}
+
 TEST(ArmPath, SameSeedSamePath) {
   Cell cell(walled());
   cell.start = cell.plan(kRight, 1).configurations.back();
@@ -125,6 +137,7 @@ TEST(ArmPath, StartInCollisionIsSaid) {
   const ArmPath path = cell.plan(kRight, 1);
   EXPECT_FALSE(path.found());
   EXPECT_GT(path.free_solutions, 0);
+  EXPECT_TRUE(path.start_blocked);
   EXPECT_EQ(path.contact.with, ArmContact::With::Obstacle);
   cell.start[2] = 1.0;
   EXPECT_THROW(cell.plan(kRight, 1), std::invalid_argument);

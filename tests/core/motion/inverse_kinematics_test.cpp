@@ -7,21 +7,21 @@
 #include <random>
 
 #include "io/robot_file.h"
+#include "tests/support/random_configuration.h"
 
 namespace vantage {
 namespace {
 
+using test::randomConfiguration;
+
 constexpr double kDeg = std::numbers::pi / 180.0;
 
-/// Uniform within the limits; a joint of several turns within one of them.
-JointVector randomConfiguration(const RobotModel& model, std::mt19937_64& random) {
-  JointVector q(model.jointCount());
-  for (int i = 0; i < model.jointCount(); ++i) {
-    const double low = std::max(model.joints[i].lower, -std::numbers::pi),
-                 high = std::min(model.joints[i].upper, std::numbers::pi);
-    q[i] = low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
-  }
-  return q;
+/// The largest difference of two configurations, full turns apart.
+double difference(const JointVector& a, const JointVector& b) {
+  double largest = 0.0;
+  for (int i = 0; i < a.size(); ++i)
+    largest = std::max(largest, std::abs(std::remainder(a[i] - b[i], 2 * std::numbers::pi)));
+  return largest;
 }
 
 double positionError(const Pose& a, const Pose& b) {
@@ -94,10 +94,7 @@ TEST_P(BothArms, SolutionsCloseOnTenThousandRandomConfigurations) {
       const Pose reached = cameraPose(arm, s);
       ASSERT_LE(positionError(reached, target), 1e-6);
       ASSERT_LE(angleBetween(reached, target), 1e-6);
-      bool same = true;
-      for (int i = 0; i < 6; ++i)
-        same = same && std::abs(std::remainder(s[i] - q[i], 2 * std::numbers::pi)) < 1e-3;
-      found = found || same;
+      found = found || difference(s, q) < 1e-3;
     }
     recovered += found;
   }
@@ -159,13 +156,7 @@ TEST(InverseKinematics, ClosedFormIsComplete) {
     const auto all = closed.solve(cameraPose(arm, q), q);
     for (const JointVector& found : numeric.solve(cameraPose(arm, q), q)) {
       double nearest = 1e9;
-      for (const JointVector& known : all) {
-        double difference = 0.0;
-        for (int i = 0; i < 6; ++i)
-          difference =
-              std::max(difference, std::abs(std::remainder(known[i] - found[i], 2 * std::numbers::pi)));
-        nearest = std::min(nearest, difference);
-      }
+      for (const JointVector& known : all) nearest = std::min(nearest, difference(known, found));
       EXPECT_LT(nearest, 1e-3) << found.transpose();
       ++compared;
     }
@@ -180,6 +171,36 @@ TEST(InverseKinematics, StretchedWristKeepsItsFirstJoint) {
   const auto solutions = InverseKinematics(arm).solve(cameraPose(arm, q), q);
   ASSERT_FALSE(solutions.empty());
   EXPECT_LT((solutions.front() - q).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+/// The wrist over the first axis: any turn of the base does, but not every one leaves the wrist within its
+/// limits.
+TEST(InverseKinematics, WristOnTheFirstAxisIsSolvedFromAnywhere) {
+  const RobotModel arm = loadRobot("smart_six");
+  const InverseKinematics inverse(arm);
+  // Axis 2 such that the wrist's centre stands over the base, by bisection.
+  JointVector q(6);
+  q << 2.9, 0.0, -2.2, 0.4, 0.9, -0.3;
+  double low = arm.joints[1].lower, high = 0.5;
+  const auto wristAhead = [&](double axis_2) {
+    JointVector p = q;
+    p[0] = 0.0;
+    p[1] = axis_2;
+    return wristCentre(arm, p).x();
+  };
+  ASSERT_LT(wristAhead(low) * wristAhead(high), 0.0);
+  for (int i = 0; i < 100; ++i) {
+    q[1] = (low + high) / 2;
+    (wristAhead(low) * wristAhead(q[1]) > 0.0 ? low : high) = q[1];
+  }
+  const Pose target = cameraPose(arm, q);
+  for (double axis_1 = -2.9; axis_1 < 2.9; axis_1 += 0.37) {
+    JointVector near = q;
+    near[0] = axis_1;
+    const auto solutions = inverse.solve(target, near);
+    ASSERT_GE(solutions.size(), 8u) << axis_1;
+    for (const JointVector& s : solutions) EXPECT_LE(positionError(cameraPose(arm, s), target), 1e-6);
+  }
 }
 
 TEST(InverseKinematics, NothingBeyondReachOrForNaN) {

@@ -99,6 +99,24 @@ TEST(Urdf, CylinderWithRoundEndsIsACapsule) {
   EXPECT_EQ(plain.shapes[0].kind, ShapeKind::Cylinder);
 }
 
+TEST(Urdf, ADiscWithOneSphereIsNoCapsule) {
+  const RobotModel arm =
+      parseUrdf(simple(body("<cylinder radius='0.05' length='1e-7'/>") + body("<sphere radius='0.05'/>")));
+  EXPECT_EQ(arm.shapes.size(), 2u);
+}
+
+TEST(Urdf, LengthsInMillimetresAreRefused) {
+  expectRefusal(simple(body("<box size='300 20 20'/>")), "millimetres");
+  expectRefusal(simple(body("<sphere radius='1'/>", "<origin xyz='1e12 0 0'/>")), "millimetres");
+  expectRefusal(simple("", "<limit lower='-1e6' upper='1e6' velocity='1' effort='0'/>", "prismatic"),
+                "travel");
+  const std::string said = refusal(simple(body("<mesh filename='arm.stl'/>")), {}, [](const std::string&) {
+    return Box(Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(300, 100, 100));
+  });
+  EXPECT_NE(said.find("'arm.stl'"), std::string::npos) << said;
+  EXPECT_NE(said.find("scale"), std::string::npos) << said;
+}
+
 TEST(Urdf, MeshBecomesItsBox) {
   const std::string mesh = body("<mesh filename='arm.stl' scale='2 2 2'/>");
   const RobotModel arm = parseUrdf(simple(mesh), {}, [](const std::string& file) {
