@@ -13,19 +13,18 @@ class FreeFlyer : public Robot {
   FreeFlyer(const FreeFlyerConfig& config, const Pose& T_world_camera);
 
   std::string name() const override { return "free"; }
-  Pose cameraPose() const override { return T_world_camera_; }
-  void localise(const Pose& T_world_camera) override { T_world_camera_ = T_world_camera; }
-  void observe(const StateGrid& states) override;
+  RobotState state() const override { return {T_world_camera_, {}}; }
+  void adjust(const Pose& T_world_camera) override { T_world_camera_ = T_world_camera; }
+  void observe(const StateGrid& states) override { planner_.observe(states); }
   /// Before the first observe() nothing is known to be free: the verdict is OutOfReach.
   MotionPlan plan(const Pose& T_world_camera, std::uint64_t seed) override;
   /// Goes to the last waypoint; the duration is length / speed. A plan without waypoints moves nothing and
   /// takes 0 s.
-  double execute(const MotionPlan& plan) override;
+  double execute(const MotionPlan& plan, const RunControl& control) override;
 
  private:
-  FreeFlyerConfig config_;
+  FreeFlyerPlanner planner_;
   Pose T_world_camera_;
-  CollisionGrid grid_;
 };
 
 }  // namespace vantage

@@ -243,10 +243,80 @@ std::vector<Field> robotFields() {
   };
 }
 
+/// Boxes as six numbers each: lower corner, upper corner.
+Field clearBoxes() {
+  Field field = base("arm.clear_boxes_m",
+                     "boxes x0,y0,z0,x1,y1,z1 that are vouched to hold nothing but the arm, world, metres",
+                     Kind::Numbers, -1000, 1000);
+  field.max_count = 600;
+  field.get = [](const Settings& s) -> Value {
+    std::vector<double> numbers;
+    for (const Box& box : s.arm.clear_boxes) {
+      numbers.insert(numbers.end(), box.min().begin(), box.min().end());
+      numbers.insert(numbers.end(), box.max().begin(), box.max().end());
+    }
+    return numbers;
+  };
+  field.set = [](Settings& s, const Value& value) {
+    const auto& numbers = std::get<std::vector<double>>(value);
+    if (numbers.size() % 6 != 0)
+      throw std::invalid_argument("arm.clear_boxes_m has " + std::to_string(numbers.size()) +
+                                  " numbers; a box takes six: x0, y0, z0, x1, y1, z1");
+    s.arm.clear_boxes.clear();
+    for (std::size_t n = 0; n < numbers.size(); n += 6)
+      s.arm.clear_boxes.emplace_back(Eigen::Vector3d(numbers[n], numbers[n + 1], numbers[n + 2]),
+                                     Eigen::Vector3d(numbers[n + 3], numbers[n + 4], numbers[n + 5]));
+  };
+  return field;
+}
+
+Field startJoints() {
+  Field field = base("arm.start_deg", "joints at the start, one number each; none = a start is looked for",
+                     Kind::Numbers, -36000, 36000);
+  field.max_count = kMaxArmJoints;
+  field.get = [](const Settings& s) -> Value {
+    std::vector<double> values;
+    for (const double q : s.arm.start_rad) values.push_back(degrees(q));
+    return values;
+  };
+  field.set = [](Settings& s, const Value& value) {
+    s.arm.start_rad.clear();
+    for (const double q : std::get<std::vector<double>>(value)) s.arm.start_rad.push_back(radians(q));
+  };
+  return field;
+}
+
+std::vector<Field> armFields() {
+  return {
+      vector3("arm.base_m", "where the arm stands, world, metres (evaluation.md, B1)", Kind::Numbers, -1000,
+              1000, AT(arm.base_m)),
+      angle("arm.base_yaw_deg", "its turn about world z, degrees", -360, 360, AT(arm.base_yaw_rad)),
+      clearBoxes(),
+      startJoints(),
+      angle("arm.start_arc_deg", "turn of the first joint during the initial scan, degrees", 0, 360,
+            AT(arm.start_arc_rad)),
+      integer("arm.goals", "free joint configurations of a view that are tried, nearest first", 1, 1000,
+              AT(arm.path.goals)),
+      angle("arm.rrt_range_deg", "longest edge of the search trees, degrees", 0.1, 3600,
+            AT(arm.path.rrt_range_rad)),
+      number("arm.speed_share", "of every joint's greatest velocity", 1e-3, 1, AT(arm.timing.speed_share)),
+      number("arm.ramp_s", "from rest to that speed, seconds", 1e-3, 60, AT(arm.timing.ramp_s)),
+      number("arm.period_s", "control period, seconds", 1e-3, 1, AT(arm.timing.period_s)),
+      number("arm.body_margin_m", "the arm's bodies are as much thicker when depth images lose them, metres",
+             0, 1, AT(arm.body_margin_m)),
+      angle("arm.encoder_noise_deg", "simulated: standard deviation of every joint reading, degrees", 0, 57,
+            AT(arm_errors.encoder_noise_rad)),
+      number("arm.mount_error_m", "simulated: the camera truly sits as far from where it is believed, metres",
+             0, 1, AT(arm_errors.mount_error_m)),
+      angle("arm.mount_error_deg", "simulated: and is turned by as much, degrees", 0, 180,
+            AT(arm_errors.mount_error_rad)),
+  };
+}
+
 std::vector<Field> allFields() {
   std::vector<Field> all;
   for (auto* part : {explorationFields, cameraFields, filterFields, mapFields, plannerFields, gainFields,
-                     octreeFields, hierarchicalFields, robotFields})
+                     octreeFields, hierarchicalFields, robotFields, armFields})
     for (Field& field : part()) all.push_back(std::move(field));
   return all;
 }

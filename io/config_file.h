@@ -12,6 +12,7 @@
 
 #include "core/exploration/explorer.h"
 #include "core/geometry/camera_model.h"
+#include "core/motion/arm_planner.h"
 #include "core/motion/path_planner.h"
 #include "io/error.h"
 #include "io/sensor_config.h"
@@ -21,8 +22,11 @@ namespace vantage {
 /// Everything that can be configured, with where each value came from. Later sources win: apply them in the
 /// order user file, scene (or data set), `--config`, `--set`.
 struct Settings {
+  Settings();
   ExplorationConfig exploration;  ///< loop, fusion, maps, planner
   FreeFlyerConfig free_flyer;
+  ArmConfig arm;  ///< cell, check step, iterations and abort are those of the free flyer, see armConfig()
+  ArmErrors arm_errors;  ///< of simulated arms
   PinholeCamera camera;
   SensorNoiseConfig sensor;  ///< of simulated cameras
   /// Placement of a recorded sequence (io/dataset.h): T_world_dataset as position and unit quaternion.
@@ -32,6 +36,8 @@ struct Settings {
   /// Key to origin, e.g. "scene tabletop"; keys that are absent have their default.
   std::map<std::string, std::string, std::less<>> origins;
 
+  /// Of an arm, with what `robot.*` says of every robot.
+  ArmConfig armConfig() const;
   Pose T_world_dataset() const { return makePose(dataset_position_m, dataset_orientation); }
   /// Name of the planner; of several, with commas between them.
   std::string planner() const;

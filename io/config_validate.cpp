@@ -42,11 +42,24 @@ void SensorNoiseConfig::validate() const {
   requireInRange("camera.emitter_offset_m", emitter_offset_m, -1.0, 1.0);
 }
 
+Settings::Settings() = default;
+
+ArmConfig Settings::armConfig() const {
+  ArmConfig config = arm;
+  config.cell_m = free_flyer.cell_m;
+  config.path.check_step_m = free_flyer.check_step_m;
+  config.path.rrt_iterations = free_flyer.rrt_iterations;
+  config.path.safety_time_s = free_flyer.safety_time_s;
+  return config;
+}
+
 void Settings::validate() const {
   try {
     camera.validate();
     sensor.validate();
     free_flyer.validate();
+    armConfig().validate();
+    arm_errors.validate();
     validateTogether(*this);
     exploration.validate();
   } catch (const std::invalid_argument& error) {

@@ -164,6 +164,17 @@ void checkIndices(const StepRecord& r) {
   require(chosen.contour_point < points, "a chosen view without its contour point");
 }
 
+/// One state for each frame, and complete trajectories.
+void checkJoints(const StepRecord& r) {
+  if (r.joints) require(r.joints->size() == r.scan.size(), "joints of another number of frames");
+  if (!r.trajectory) return;
+  const JointTrajectory& t = *r.trajectory;
+  require(t.size() > 0 && t.positions.size() == t.size() && t.velocities.size() == t.size(),
+          "a trajectory with too few points");
+  for (const JointVector& q : t.positions)
+    require(q.size() == t.positions.front().size(), "a trajectory with too few joints");
+}
+
 void checkDepth(const DepthImage& d) {
   require(d.width >= 0 && d.height >= 0 &&
               static_cast<std::uint64_t>(d.width) * static_cast<std::uint64_t>(d.height) == d.depth_m.size(),
@@ -215,6 +226,7 @@ std::vector<StoredProduct> storeRecord(const StepRecord& record, int step) {
   };
   add("sense", "depth", record.depth);
   add("sense", "filtered", record.filtered);
+  add("sense", "joints", record.joints);
   const auto addBricks = [&](const auto& bricks) {
     if (!bricks) return;
     for (StoredProduct& chunk : storeBricks(stageOf("fuse"), step, *bricks)) all.push_back(std::move(chunk));
@@ -230,6 +242,7 @@ std::vector<StoredProduct> storeRecord(const StepRecord& record, int step) {
   add("generation", "positions", record.positions);
   add("evaluation", "search", record.search);
   add("evaluation", "utilities", record.utilities);
+  add("motion", "trajectory", record.trajectory);
 
   std::vector<std::string> names;
   for (std::size_t i = 1; i < all.size(); ++i) names.push_back(all[i].name);
@@ -258,6 +271,7 @@ StepRecord openRecord(int step, bool closing, const FetchProduct& fetch, RunDeta
   };
   take("sense", "depth", record.depth);
   take("sense", "filtered", record.filtered);
+  take("sense", "joints", record.joints);
   take("contours", "contours", record.contours);
   take("surface", "surface", record.surface);
   take("segmentation", "labels", record.labels);
@@ -266,6 +280,7 @@ StepRecord openRecord(int step, bool closing, const FetchProduct& fetch, RunDeta
   take("generation", "positions", record.positions);
   take("evaluation", "search", record.search);
   take("evaluation", "utilities", record.utilities);
+  take("motion", "trajectory", record.trajectory);
   take("fuse", "box", record.box);
   if (record.depth) checkDepth(record.depth->depth);
   if (record.filtered) {
@@ -273,6 +288,7 @@ StepRecord openRecord(int step, bool closing, const FetchProduct& fetch, RunDeta
     require(record.filtered->mask.size() == record.filtered->depth.depth_m.size(), "a mask of another size");
   }
   checkIndices(record);
+  checkJoints(record);
 
   const auto takeBricks = [&]<class Brick>(std::shared_ptr<const std::vector<Brick>>& bricks) {
     if (std::ranges::none_of(content.products, isBricks<Brick>)) return;

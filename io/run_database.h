@@ -15,7 +15,7 @@ namespace vantage {
 
 /// Identity of run files: "VNTG" in SQLite's application id, the version of their layout in its user version.
 inline constexpr std::uint32_t kRunApplicationId = 0x564e5447;
-inline constexpr int kRunVersion = 3;
+inline constexpr int kRunVersion = 4;
 
 /// How a database is opened.
 enum class DatabaseMode {

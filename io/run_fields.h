@@ -15,6 +15,8 @@ inline constexpr std::int64_t kEnumCount<Stage> = static_cast<std::int64_t>(Stag
 template <>
 inline constexpr std::int64_t kEnumCount<Reachability> = kReachabilityCount;
 template <>
+inline constexpr std::int64_t kEnumCount<ShapeKind> = 4;
+template <>
 inline constexpr std::int64_t kEnumCount<OutsideUnknown> = 2;
 template <>
 inline constexpr std::int64_t kEnumCount<ContourNormal> = 2;
@@ -139,6 +141,35 @@ void fields(auto& a, Like<ContourOptions> auto& v) {
 /// What the hierarchical planner adds to the header, a product of its own.
 void fields(auto& a, Like<OctreeHeader> auto& v) {
   a(v.planner, v.map, v.object_box);
+}
+
+// Arms, products of their own
+/// As many numbers as there are joints.
+void fields(auto& a, Like<JointVector> auto& v) {
+  if constexpr (std::remove_cvref_t<decltype(a)>::kReading) {
+    std::vector<double> values;
+    a(values);
+    if (values.size() > static_cast<std::size_t>(kMaxArmJoints)) throw DamagedBytes("too many joints");
+    v = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  } else {
+    const std::vector<double> values(v.begin(), v.end());
+    a(values);
+  }
+}
+void fields(auto& a, Like<JointTrajectory> auto& v) {
+  a(v.time_s, v.positions, v.velocities);
+}
+void fields(auto& a, Like<ArmJoint> auto& v) {
+  a(v.name, v.prismatic, v.axis, v.T_parent_joint, v.lower, v.upper, v.max_velocity);
+}
+void fields(auto& a, Like<LinkShape> auto& v) {
+  a(v.link, v.frame, v.kind, v.T_frame_shape, v.size_m, v.radius_m, v.length_m);
+}
+void fields(auto& a, Like<RobotModel> auto& v) {
+  a(v.name, v.joints, v.shapes, v.T_tip_camera, v.camera_link);
+}
+void fields(auto& a, Like<ArmHeader> auto& v) {
+  a(v.model, v.T_world_base, v.clear_boxes);
 }
 
 // One step

@@ -10,6 +10,7 @@
 #include "core/exploration/explorer.h"
 #include "core/exploration/step_record.h"
 #include "core/geometry/triangle_mesh.h"
+#include "core/motion/robot_model.h"
 
 namespace vantage {
 
@@ -18,6 +19,13 @@ struct OctreeHeader {
   HierarchicalPlannerConfig planner;
   OctreeMapConfig map;
   Box object_box;  ///< the object's box, with volume
+};
+
+/// What a run with an arm adds to the header.
+struct ArmHeader {
+  RobotModel model;
+  Pose T_world_base = Pose::Identity();
+  std::vector<Box> clear_boxes;  ///< vouched for, world
 };
 
 /// What a run is about; written once at its start.
@@ -40,6 +48,7 @@ struct RunHeader {
   bool replay = false;                 ///< the camera served recorded frames
   TriangleMesh truth;                  ///< the true scene, empty if not known
   std::optional<OctreeHeader> octree;  ///< empty if the run has no octree
+  std::optional<ArmHeader> arm;        ///< empty for the free flyer
 };
 
 /// How much of a record is read.

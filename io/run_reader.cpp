@@ -62,11 +62,21 @@ void checkOctree(const OctreeHeader& octree, const GridGeometry& volume) {
     throw DamagedBytes("its octree has an impossible size");
 }
 
+/// Whoever draws the arm trusts its frames.
+void checkArm(const RobotModel& arm) {
+  if (arm.joints.empty() || arm.jointCount() > kMaxArmJoints)
+    throw DamagedBytes("its arm has an impossible number of joints");
+  for (const LinkShape& shape : arm.shapes)
+    if (shape.frame < -1 || shape.frame >= arm.jointCount())
+      throw DamagedBytes("a body of its arm hangs on a joint that is not there");
+}
+
 void checkHeader(const RunHeader& h) {
   const Eigen::Vector3i& size = h.volume.size;
   const bool sizes = (size.array() >= 0).all() && (size.array() <= kMaxGridSize).all();
   if (!sizes || h.volume.count() > kMaxGridVoxels) throw DamagedBytes("its volume has an impossible size");
   if (h.octree) checkOctree(*h.octree, h.volume);
+  if (h.arm) checkArm(h.arm->model);
   for (const auto& t : h.truth.triangles)
     for (const std::uint32_t corner : t)
       if (corner >= h.truth.vertices.size()) throw DamagedBytes("its true scene lacks corners");
@@ -285,6 +295,7 @@ RunReader::RunReader(const std::filesystem::path& path) : state_(std::make_uniqu
     readContourOptions(database, h.contour_config);
     if (const auto octree = findRunProduct(database, "octree"))
       h.octree = openValue<OctreeHeader>(*octree, 0);
+    if (const auto arm = findRunProduct(database, "arm")) h.arm = openValue<ArmHeader>(*arm, 0);
     checkHeader(h);
     return h;
   });

@@ -68,6 +68,7 @@ void createFile(const fs::path& path, const RunHeader& header) {
     const ContourOptions options{header.contour_config.contours.normal, header.contour_config.gain.count};
     putRunProduct(database, storeValue("run", "contour options", 0, options));
     if (header.octree) putRunProduct(database, storeValue("run", "octree", 0, *header.octree));
+    if (header.arm) putRunProduct(database, storeValue("run", "arm", 0, *header.arm));
     transaction.commit();
   }
   removeSideFiles(path);

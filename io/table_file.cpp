@@ -1,7 +1,6 @@
 #include "io/table_file.h"
 
 #include <charconv>
-#include <charconv>
 #include <cmath>
 #include <iostream>
 #include <iterator>
@@ -147,6 +146,29 @@ void writeViews(const std::string& path, const std::vector<ViewRow>& views) {
   for (const ViewRow& view : views) {
     table.cell(view.id).pose(view.T_world_camera);
     if (groups) view.group ? table.cell(*view.group) : table.cell(std::string_view());
+    table.endRow();
+  }
+  table.save(path);
+}
+
+void writeJointPath(const std::string& path, const std::vector<std::string>& joints,
+                    const JointTrajectory& trajectory) {
+  std::string header = "t_s";
+  for (const std::string& joint : joints) header += "," + joint;
+  CsvTable table(header);
+  for (std::size_t p = 0; p < trajectory.size(); ++p) {
+    table.cell(trajectory.time_s[p]);
+    for (const double q : trajectory.positions[p]) table.cell(q);
+    table.endRow();
+  }
+  table.save(path);
+}
+
+void writePosePath(const std::string& path, const std::vector<double>& times_s,
+                   const std::vector<Pose>& poses) {
+  CsvTable table("t_s,x_m,y_m,z_m,qx,qy,qz,qw");
+  for (std::size_t p = 0; p < poses.size(); ++p) {
+    table.cell(times_s[p]).pose(poses[p]);
     table.endRow();
   }
   table.save(path);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/geometry/pose.h"
+#include "core/motion/trajectory.h"
 #include "core/perception/contours.h"
 #include "core/perception/saliency.h"
 #include "core/planners/hierarchical_planner.h"
@@ -63,6 +64,14 @@ struct PlanRow {
 
 /// `id,x_m,y_m,z_m,qx,qy,qz,qw,group,segment,saliency,gain,reachability,chosen`
 void writePlan(const std::string& path, const std::vector<PlanRow>& rows);
+
+/// `t_s` and a column for each joint, rad or m
+void writeJointPath(const std::string& path, const std::vector<std::string>& joints,
+                    const JointTrajectory& trajectory);
+
+/// `t_s,x_m,y_m,z_m,qx,qy,qz,qw`
+void writePosePath(const std::string& path, const std::vector<double>& times_s,
+                   const std::vector<Pose>& poses);
 
 /// The plan of the hierarchical planner: surviving views by decreasing utility, then the rejected ones.
 /// `id,x_m,y_m,z_m,qx,qy,qz,qw,reject,unknown,occupied,surface,distance,utility,rays,visited,reachability,chosen`

@@ -201,9 +201,11 @@ std::string verdictWord(const CandidateRow& row) {
     case ViewVerdict::LaterSegment:
       return "later seg.";
     case ViewVerdict::Unreachable:
-      return row.reachability == Reachability::NoPath    ? "no path"
-             : row.reachability == Reachability::NoFrame ? "no frame"
-                                                         : refusalWord(row.reachability);
+      return row.reachability == Reachability::NoPath          ? "no path"
+             : row.reachability == Reachability::NoFrame       ? "no frame"
+             : row.reachability == Reachability::NoIk          ? "no joints"
+             : row.reachability == Reachability::SelfCollision ? "hits itself"
+                                                               : refusalWord(row.reachability);
     case ViewVerdict::BelowThreshold:
       return "little gain";
     case ViewVerdict::TakenBefore:

@@ -4,6 +4,7 @@
 
 #include "core/perception/saliency.h"
 #include "core/planners/rank_again.h"
+#include "io/run_robot.h"
 
 namespace vantage {
 namespace {
@@ -35,8 +36,7 @@ struct SearchInput {
 };
 
 StepReach reachOf(const WhatIfContext& context, const StepRecord& record) {
-  return {.collision = context.collision,
-          .robot = context.settings.free_flyer,
+  return {.planner = *context.motion,
           .exploration = context.settings.exploration,
           .step = record.step,
           .start = context.start,
@@ -99,9 +99,9 @@ Reranked rerankContour(const PlannedStep& base, const ScoredGroups& groups, cons
 Reranked rerankOctree(const PlannedStep& base, const WhatIfContext& context, const Settings& wanted,
                       ReachCheck check, const RunControl& control) {
   MotionPlan reported;
-  UtilitySearch found =
-      rankAgain(*base.data.record->utilities, hierarchicalConfigOf(wanted, context.planner), context.start,
-                context.exclusions.executed, reachPose(context, *base.data.record, check, reported), control);
+  UtilitySearch found = rankAgain(*base.data.record->utilities, hierarchicalConfigOf(wanted, context.planner),
+                                  context.start.T_world_camera, context.exclusions.executed,
+                                  reachPose(context, *base.data.record, check, reported), control);
   Reranked result;
   result.data = changedStep(base.data, wanted, [&](StepRecord& record) {
     record.utilities = std::make_shared<const UtilitySearch>(std::move(found));
@@ -136,7 +136,7 @@ void replanOctree(StepRecord& record, StepData& data, const WhatIfContext& conte
                                .tree = *data.tree,
                                .object_box = octree.object_box,
                                .workspace = mapped,
-                               .current = context.start,
+                               .current = context.start.T_world_camera,
                                .config = config,
                                .executed = context.exclusions.executed,
                                .seed = pathSeed(context.settings.exploration.seed, record.step, 0)};
@@ -157,10 +157,12 @@ std::shared_ptr<const WhatIfContext> makeWhatIfContext(const StepData& data, Exc
   applyToml(context->settings, data.header->config_toml, "the run's configuration");
   context->planner = plannerOfStep(data);
   context->exclusions = std::move(exclusions);
-  const FreeFlyerConfig& robot = context->settings.free_flyer;
-  context->collision = CollisionGrid(*data.states, robot.cell_m, robot.body_radius_m);
-  if (!data.record->scan.empty()) context->start = data.record->scan.back().T_world_camera;
-  context->verdicts = PositionVerdicts(*data.record, context->settings.exploration.contour.views.rolls);
+  context->motion = motionPlannerOf(*data.header, context->settings);
+  context->motion->observe(*data.states);
+  const StepRecord& record = *data.record;
+  context->start = stateAfterScan(record);
+  if (!data.header->arm)  // an arm's verdicts hold for one orientation
+    context->verdicts = PositionVerdicts(record, context->settings.exploration.contour.views.rolls);
   return context;
 }
 

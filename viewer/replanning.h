@@ -14,11 +14,11 @@ namespace vantage {
 
 /// What trying parameters on a recorded step needs beside its record. Immutable, shared between threads.
 struct WhatIfContext {
-  Settings settings;      ///< of the run
-  Exclusions exclusions;  ///< what its earlier steps left out
-  CollisionGrid collision;
-  Pose start = Pose::Identity();  ///< of the sensor before it moves to the view
-  PositionVerdicts verdicts;      ///< what the step found out about positions
+  Settings settings;                      ///< of the run
+  Exclusions exclusions;                  ///< what its earlier steps left out
+  std::shared_ptr<MotionPlanner> motion;  ///< has seen the step's map
+  RobotState start;                       ///< before it moves to the view
+  PositionVerdicts verdicts;              ///< what the step found out about positions
   PlannerKind planner = PlannerKind::Contour;
 };
 

@@ -68,6 +68,10 @@ std::string refusalWord(Reachability verdict) {
       return "out of time";
     case Reachability::NoFrame:
       return "without a frame";
+    case Reachability::NoIk:
+      return "beyond the joints";
+    case Reachability::SelfCollision:
+      return "touching itself";
     case Reachability::Reachable:
     case Reachability::NotChecked:
       break;

@@ -59,6 +59,7 @@ struct Explorer::State {
   std::vector<StepObserver> observers;
   Exclusions exclusions;
   std::uint64_t frames_taken = 0;
+  bool moved = false;  ///< the robot carried out the last step's motion
 
   void publish(StepRecord& record, Stage stage) {
     record.stage = stage;
@@ -78,14 +79,17 @@ struct Explorer::State {
                    const std::function<void(Stage)>& publish_stage, const RunControl& control);
   void planHierarchical(StepRecord& record, const ReachPose& reach,
                         const std::function<void(Stage)>& publish_stage, const RunControl& control);
-  void move(StepRecord& record);
+  void move(StepRecord& record, const RunControl& control);
   void close(StepRecord& record);
   void realise(StepRecord& previous, const StepRecord& scanned, std::uint64_t unknown_before);
 };
 
 std::vector<Pose> Explorer::State::startPoses() const {
   std::vector<Pose> recorded = camera.recordedPoses();
-  if (recorded.empty()) return initialScanPoses(config.scan);
+  if (recorded.empty()) {
+    const std::vector<Pose> own = robot.startPoses();
+    return own.empty() ? initialScanPoses(config.scan) : own;
+  }
   if (static_cast<int>(recorded.size()) > config.scan.initial_frames)
     recorded.resize(config.scan.initial_frames);
   return recorded;
@@ -98,11 +102,13 @@ bool Explorer::State::scanInto(StepRecord& record, const std::vector<Pose>& pose
   std::optional<double> filter_s;
   DepthFrame last;
   FilteredDepth filtered;
+  std::vector<JointVector> joints;
   for (std::size_t p = 0; p < poses.size(); ++p) {
     control.check();
     control.report("sense", p, poses.size());
     const Stopwatch sensing;
-    std::optional<DepthFrame> frame = camera.capture(poses[p], frames_taken);
+    robot.adjust(poses[p]);
+    std::optional<DepthFrame> frame = camera.capture(robot.state().T_world_camera, frames_taken);
     sense_s += sensing.seconds();
     if (!frame) break;
     ++frames_taken;
@@ -116,10 +122,12 @@ bool Explorer::State::scanInto(StepRecord& record, const std::vector<Pose>& pose
                bubble);
     fuse_s += fusing.seconds();
     record.scan.push_back({frame->T_world_camera, frame->frame});
+    if (const JointVector q = robot.state().joints; q.size() > 0) joints.push_back(q);
     last = std::move(*frame);
   }
   if (record.scan.empty()) return false;
-  robot.localise(last.T_world_camera);
+  if (isReplay()) robot.adjust(last.T_world_camera);  // the frame that served was taken there
+  if (!joints.empty()) record.joints = share(std::move(joints));
   record.depth = share(std::move(last));
   if (config.filter.any()) record.filtered = share(std::move(filtered));
   record.timings.sense = sense_s;
@@ -194,7 +202,7 @@ void Explorer::State::planHierarchical(StepRecord& record, const ReachPose& reac
   if (config.plannerOf(record.step) == PlannerKind::Uniform) planner.coarse_levels = 0;
   const std::vector<ScanPose> recorded =
       config.recorded_candidates ? camera.posesLeft() : std::vector<ScanPose>();
-  const Pose current = robot.cameraPose();
+  const Pose current = robot.state().T_world_camera;
   const Box bounds = config.volume.bounds();
   const PlanUtilityInput input{.pyramid = *world.pyramid(),
                                .tree = tree,
@@ -232,10 +240,10 @@ const WorldModel& Explorer::world() const {
   return state_->world;
 }
 
-/// Along the arc at the start, at the last view later; recorded data serve one frame a view.
+/// Along the arc at the start, later where the robot arrived; recorded data serve one frame a view.
 std::vector<Pose> Explorer::State::scanPoses(const std::optional<StepRecord>& previous) const {
   if (!previous) return startPoses();
-  const Pose& view = previous->chosen()->T_world_camera;
+  const Pose view = moved ? robot.state().T_world_camera : previous->chosen()->T_world_camera;
   return isReplay() ? std::vector<Pose>{view} : tiltedScanPoses(view, config.scan);
 }
 
@@ -258,10 +266,15 @@ bool Explorer::State::observe(StepRecord& record, std::optional<StepRecord>& pre
   return true;
 }
 
-void Explorer::State::move(StepRecord& record) {
+void Explorer::State::move(StepRecord& record, const RunControl& control) {
+  moved = false;
   if (!record.hasView()) return;
   const MotionPlan& path = record.chosen()->path;
-  if (path.verdict == Reachability::Reachable) record.timings.motion = robot.execute(path);
+  if (path.verdict == Reachability::Reachable) {
+    record.timings.motion = robot.execute(path, control);
+    record.trajectory = path.trajectory;
+    moved = !path.waypoints.empty();
+  }
   publish(record, Stage::Motion);
 }
 
@@ -294,7 +307,7 @@ ExplorationResult Explorer::run(const RunControl& control) {
         return result;
       }
       s.plan(record, control);
-      s.move(record);
+      s.move(record, control);
       s.publish(record, Stage::Done);
       result.steps = step;
       if (!record.hasView()) {  // D-B14

@@ -9,6 +9,7 @@
 #include "core/geometry/grid_geometry.h"
 #include "core/geometry/pose.h"
 #include "core/motion/path_planner.h"
+#include "core/run_control.h"
 
 namespace vantage {
 
@@ -44,15 +45,20 @@ class Robot {
  public:
   virtual ~Robot() = default;
   virtual std::string name() const = 0;
-  virtual Pose cameraPose() const = 0;
-  /// Tells where the last frame was taken from; called after every scan.
-  virtual void localise(const Pose& T_world_camera) = 0;
+  /// Where the robot is, as far as it knows.
+  virtual RobotState state() const = 0;
+  /// Camera poses of the initial scan that the robot brings along; empty for robots that start anywhere.
+  virtual std::vector<Pose> startPoses() const { return {}; }
+  /// Brings the camera to a pose of a scan, near where it is. A robot that can't stays where it is.
+  virtual void adjust(const Pose& T_world_camera) = 0;
   /// Takes over the current map; called once a step, before plan().
   virtual void observe(const StateGrid& states) = 0;
   /// A motion to a camera pose, or why there is none.
   virtual MotionPlan plan(const Pose& T_world_camera, std::uint64_t seed) = 0;
-  /// Carries it out; returns the duration in seconds (simulated robots: modelled, not waited for).
-  virtual double execute(const MotionPlan& plan) = 0;
+  /// Carries it out; returns the duration in seconds (simulated robots: modelled, not waited for). Where the
+  /// camera is afterwards, state() tells. \throws Cancelled if a stop was requested on the way: the robot
+  /// then stands within one control period; std::runtime_error if it can't or must not move.
+  virtual double execute(const MotionPlan& plan, const RunControl& control) = 0;
 };
 
 /// What is known about the true scene; absent on real data.

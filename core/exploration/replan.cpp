@@ -60,10 +60,9 @@ ReachPose stepReach(StepReach reach, MotionPlan& reported) {
     const ExplorationConfig& config = reach.exploration;
     MotionPlan plan;
     if (reach.start)
-      plan = planPath(reach.collision, *reach.start, pose, reach.robot,
-                      pathSeed(config.seed, reach.step, tried++));
+      plan = reach.planner.plan(*reach.start, pose, pathSeed(config.seed, reach.step, tried++));
     else
-      plan.verdict = checkPosition(reach.collision, pose.translation(), reach.robot);
+      plan.verdict = reach.planner.check(pose);
     return judged(std::move(plan), config.enforce_reachability, reported);
   };
 }
@@ -96,9 +95,8 @@ ReachPose quickReach(StepReach reach, PositionVerdicts known) {
     if (!isServed(reach, pose)) return onlyVerdict(Reachability::NoFrame);
     const std::optional<Reachability> recorded = known.of(pose.translation());
     MotionPlan ignored;
-    return judged(
-        onlyVerdict(recorded ? *recorded : checkPosition(reach.collision, pose.translation(), reach.robot)),
-        reach.exploration.enforce_reachability, ignored);
+    return judged(onlyVerdict(recorded ? *recorded : reach.planner.check(pose)),
+                  reach.exploration.enforce_reachability, ignored);
   };
 }
 

@@ -25,12 +25,11 @@ std::optional<Stage> firstStageToRedo(const HierarchicalPlannerConfig& have,
 /// What decides whether a view of a recorded step can be taken when the robot itself is not there. What it
 /// refers to must outlive the functions made from it.
 struct StepReach {
-  const CollisionGrid& collision;  ///< of the map that the step planned in
-  const FreeFlyerConfig& robot;
+  const MotionPlanner& planner;  ///< has seen the map that the step planned in
   const ExplorationConfig&
       exploration;  ///< seed, enforce_reachability, and how near frames must serve a view
   int step = 1;
-  std::optional<Pose> start;  ///< where the sensor is; empty: it only has to fit, no path is asked for
+  std::optional<RobotState> start;  ///< where the robot is; empty: it only has to fit, no path is asked for
   /// Replay in which views must be served: poses whose frames are left. Empty: no view needs a frame.
   std::optional<std::vector<ScanPose>> left;
 };

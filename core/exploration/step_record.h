@@ -74,6 +74,7 @@ struct StepRecord {
   std::string planner;         ///< name of the PlannerKind
 
   std::vector<ScanPose> scan;
+  std::shared_ptr<const std::vector<JointVector>> joints;        ///< of an arm, for each scan pose; else null
   std::shared_ptr<const DepthFrame> depth;                       ///< last frame of the scan
   std::shared_ptr<const FilteredDepth> filtered;                 ///< its filtered image; null without filters
   std::shared_ptr<const std::vector<TsdfBrick>> changed_bricks;  ///< since the step before; ascending
@@ -90,8 +91,9 @@ struct StepRecord {
   std::shared_ptr<const ViewSearch> search;        ///< of the contour planner and its baseline
   std::shared_ptr<const UtilitySearch> utilities;  ///< of the hierarchical planner and its baseline
 
-  std::optional<bool> toward_object;             ///< needs ground truth and a chosen view
-  std::optional<std::uint64_t> realised_voxels;  ///< at Stage::Realised
+  std::shared_ptr<const JointTrajectory> trajectory;  ///< that the arm was sent; null for others
+  std::optional<bool> toward_object;                  ///< needs ground truth and a chosen view
+  std::optional<std::uint64_t> realised_voxels;       ///< at Stage::Realised
   /// Replay: the frame that served the chosen view, at Stage::Realised.
   std::optional<ScanPose> served;
   Timings timings;

@@ -40,7 +40,7 @@ class ArmCollision {
   ArmCollision& operator=(ArmCollision&&) noexcept;
 
   /// Takes over the cells; only those that differ from the last call are written. Until the first call
-  /// everything but the vouched boxes is an obstacle.
+  /// everything is an obstacle.
   /// \return cells written. \throws std::invalid_argument for cells of another geometry than the first ones,
   /// or for an arm that reaches more than 512 cells.
   std::size_t update(const CollisionGrid& grid);

@@ -69,9 +69,9 @@ void FreeFlyerConfig::validate() const {
 }
 
 std::string_view tokenOf(Reachability r) {
-  constexpr std::string_view kTokens[kReachabilityCount] = {"reachable",     "out_of_reach", "in_collision",
-                                                            "not_connected", "no_path",      "timed_out",
-                                                            "not_checked",   "no_frame"};
+  constexpr std::string_view kTokens[kReachabilityCount] = {
+      "reachable", "out_of_reach", "in_collision", "not_connected", "no_path",
+      "timed_out", "not_checked",  "no_frame",     "no_ik",         "self_collision"};
   return kTokens[static_cast<int>(r)];
 }
 
@@ -89,6 +89,10 @@ std::string_view toString(Reachability r) {
       return "the path planner found no way within its iterations";
     case Reachability::NoFrame:
       return "no recorded frame that is left was taken near enough";
+    case Reachability::NoIk:
+      return "no joint configuration within the limits puts the camera there";
+    case Reachability::SelfCollision:
+      return "the arm would touch itself";
     case Reachability::TimedOut:
       return "path planning was stopped by the wall clock";
     case Reachability::NotChecked:
@@ -148,6 +152,23 @@ MotionPlan planPath(const CollisionGrid& grid, const Pose& from, const Pose& to,
     setWaypoints(plan, shortened(Path(found.path.begin(), found.path.end()), segment_free, kSpacing_m), from,
                  to);
   return plan;
+}
+
+FreeFlyerPlanner::FreeFlyerPlanner(const FreeFlyerConfig& config) : config_(config) {
+  config_.validate();
+}
+
+void FreeFlyerPlanner::observe(const StateGrid& states) {
+  grid_ = CollisionGrid(states, config_.cell_m, config_.body_radius_m);
+}
+
+Reachability FreeFlyerPlanner::check(const Pose& T_world_camera) const {
+  return checkPosition(grid_, T_world_camera.translation(), config_);
+}
+
+MotionPlan FreeFlyerPlanner::plan(const RobotState& from, const Pose& T_world_camera,
+                                  std::uint64_t seed) const {
+  return planPath(grid_, from.T_world_camera, T_world_camera, config_, seed);
 }
 
 }  // namespace vantage

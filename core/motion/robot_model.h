@@ -10,14 +10,9 @@
 
 #include "core/geometry/grid_geometry.h"
 #include "core/geometry/pose.h"
+#include "core/motion/joint_vector.h"
 
 namespace vantage {
-
-/// Joints of an arm at most.
-inline constexpr int kMaxArmJoints = 12;
-
-/// One value for each joint of an arm, in the order of RobotModel::joints: rad, or m for prismatic ones.
-using JointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxArmJoints, 1>;
 
 /// A joint that moves, with the rigid part of the chain in front of it. Its frame is the joint's origin after
 /// the motion; frame -1 is the base.

@@ -15,7 +15,9 @@ double secondsSince(Clock::time_point start) {
 }
 
 /// True if no roll of the position can do better. The wall clock may strike at one pose and spare the next.
-bool holdsForPosition(Reachability verdict) {
+bool holdsForPosition(const MotionPlan& plan) {
+  const Reachability verdict = plan.verdict;
+  if (plan.by_orientation) return false;
   return verdict == Reachability::OutOfReach || verdict == Reachability::InCollision ||
          verdict == Reachability::NotConnected || verdict == Reachability::NoPath;
 }
@@ -100,7 +102,7 @@ class Selection {
     MotionPlan plan = reach_(poseOf(id));
     result_.motion_planning_s += secondsSince(start);
     ++result_.counts.paths_planned;
-    if (holdsForPosition(plan.verdict)) unreachable_.emplace(position, plan.verdict);
+    if (holdsForPosition(plan)) unreachable_.emplace(position, plan.verdict);
     return plan;
   }
 

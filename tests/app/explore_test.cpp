@@ -173,5 +173,95 @@ TEST_F(ExploreCommand, InfoDescribesTheRun) {
   EXPECT_NE(info.out.find("steps done"), std::string::npos) << info.out;
 }
 
+/// One step of an arm serves all tests of these.
+class ExploreByArm : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    result_ = vantage({"explore", "tabletop", "--robot", "smart_six", "--steps", "1", "-o",
+                       *folder_ / "arm.vantage", "--json", *folder_ / "arm.json"});
+  }
+  static void TearDownTestSuite() {
+    delete folder_;
+    folder_ = nullptr;
+  }
+  static TemporaryFolder* folder_;
+  static ProcessResult result_;
+};
+TemporaryFolder* ExploreByArm::folder_ = nullptr;
+ProcessResult ExploreByArm::result_;
+
+TEST_F(ExploreByArm, MovesTheArmAndCountsWhatItCannotReach) {
+  ASSERT_EQ(result_.code, 0) << result_.err;
+  const Json run = Json::parse(readFile(*folder_ / "arm.json"));
+  EXPECT_EQ(run["robot"], "smart_six");
+  EXPECT_GT(run["steps"][0]["timings_s"]["motion"], 0.1);
+  EXPECT_GT(run["steps"][0]["poses_unreachable"], 0);
+}
+
+TEST_F(ExploreByArm, ItsStepIsPlannedAgainWithTheSameArm) {
+  const ProcessResult plan =
+      vantage({"plan", *folder_ / "arm.vantage" + "#1", "--json", *folder_ / "plan.json"});
+  ASSERT_EQ(plan.code, 0) << plan.err;
+  const Json run = Json::parse(readFile(*folder_ / "arm.json"));
+  const Json again = Json::parse(readFile(*folder_ / "plan.json"));
+  EXPECT_EQ(again["position_m"], run["steps"][0]["position_m"]);
+  EXPECT_EQ(again["quaternion_xyzw"], run["steps"][0]["quaternion_xyzw"]);
+  EXPECT_EQ(again["poses_unreachable"], run["steps"][0]["poses_unreachable"]);
+}
+
+TEST_F(ExploreByArm, AnotherArmFindsAPathToTheView) {
+  const std::string run = *folder_ / "arm.vantage" + "#1";
+  const ProcessResult own =
+      vantage({"path", run, "-o", *folder_ / "own.csv", "--json", *folder_ / "own.json"});
+  ASSERT_EQ(own.code, 0) << own.err;
+  const std::vector<std::string> rows = lines(readFile(*folder_ / "own.csv"));
+  ASSERT_GT(rows.size(), 10u);
+  EXPECT_EQ(rows[0], "t_s,axis_1,axis_2,axis_3,axis_4,axis_5,axis_6");
+  const Json facts = Json::parse(readFile(*folder_ / "own.json"));
+  EXPECT_EQ(facts["verdict"], "reachable");
+  EXPECT_NEAR(facts["duration_s"], std::stod(rows.back()), 1e-9);
+  const ProcessResult other = vantage({"path", run, "--robot", "ur5", "-o", *folder_ / "ur5.csv"});
+  EXPECT_EQ(other.code, 0) << other.err;
+  const ProcessResult flyer =
+      vantage({"path", run, "--robot", "free", "--to", "0,-0.62,0.87,1,0,0,0", "-o", "-"});
+  EXPECT_EQ(flyer.out.substr(0, 30), "t_s,x_m,y_m,z_m,qx,qy,qz,qw\n0,") << flyer.err;
+  expectRefused(vantage({"path", run, "--to", "3,3,0.5,0,0,0,1", "-o", *folder_ / "none.csv"}), {"no path"},
+                1);
+  expectRefused(vantage({"path", run, "--to", "0,0,0.5,0,0,0,2", "-o", "-"}), {"--to", "length 2"});
+  expectRefused(vantage({"path", run, "--from", "0,1,2", "-o", "-"}), {"--from", "3 numbers", "6 joints"});
+  expectRefused(vantage({"path", run, "--from", "0,300,0,0,0,0", "-o", "-"}), {"--from", "limits"});
+  expectRefused(vantage({"path", run, "--to", "0,x", "-o", "-"}), {"--to", "no list of numbers"});
+  EXPECT_FALSE(std::filesystem::exists(*folder_ / "none.csv"));
+}
+
+TEST_F(ExploreByArm, APictureShowsItAndItsMotion) {
+  const auto bytes = [&](const std::string& name, const std::string& recipe) {
+    const ProcessResult drawn = vantage({"snapshot", *folder_ / "arm.vantage", "--step", "1", "--recipe",
+                                         recipe, "--size", "640x400", "-o", *folder_ / name});
+    EXPECT_EQ(drawn.code, 0) << drawn.err;
+    return readFile(*folder_ / name);
+  };
+  EXPECT_NE(bytes("arm.png", "arm"), bytes("views.png", "views"));
+}
+
+TEST(ExploreRobots, RefusesWhatCannotMove) {
+  const TemporaryFolder folder;
+  const auto explore = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"explore", "tabletop", "-o", folder / "x.vantage"});
+    return vantage(words);
+  };
+  expectRefused(explore({"--robot", "smart_sox"}), {"smart_sox", "did you mean 'smart_six'?"});
+  expectRefused(explore({"--robot", "smart_six", "--set", "arm.start_deg=[0,60,-90,0,90,0]"}),
+                {"arm.start_deg", "would touch occupied or unknown space"});
+  expectRefused(explore({"--robot", "smart_six", "--set", "arm.clear_boxes_m=[0,0,0,1,1]"}),
+                {"arm.clear_boxes_m has 5 numbers"});
+  expectRefused(explore({"--robot", "smart_six", "--set", "arm.clear_boxes_m=[1,0,0,0,1,1]"}),
+                {"arm.clear_boxes_m"});
+  expectRefused(explore({"--robot", "smart_six", "--set", "exploration.enforce_reachability=false"}),
+                {"exploration.enforce_reachability"});
+  EXPECT_FALSE(std::filesystem::exists(folder / "x.vantage"));
+}
+
 }  // namespace
 }  // namespace vantage::test

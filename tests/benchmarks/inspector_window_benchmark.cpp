@@ -167,8 +167,7 @@ void dragIsolationDistance(benchmark::State& state) {
     const auto start = Clock::now();
     watch.start();
     window.ui.moveMouse(at(0.3 + 0.02 * (turn % 20)), box.y());
-    while (what_if.revision() == decision || window.inspector.picturesRendered() == before)
-      window.ui.frame();
+    while (what_if.revision() == decision || window.inspector.picturesRendered() == before) window.ui.frame();
     watch.stop();
     const bool ranked = what_if.state() == WhatIfState::Checking || what_if.state() == WhatIfState::Settled;
     if (!ranked) state.SkipWithError("views had to be scored first");

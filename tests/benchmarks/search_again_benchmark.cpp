@@ -24,13 +24,9 @@ struct ScoredStep {
   std::optional<ScoredGroups> groups;
 
   ScoredStep() {
-    reach = quickReach({.collision = map.collision,
-                        .robot = map.settings.free_flyer,
-                        .exploration = map.settings.exploration,
-                        .step = 1,
-                        .start = {},
-                        .left = {}},
-                       {});
+    reach = quickReach(
+        {.planner = map.motion, .exploration = map.settings.exploration, .step = 1, .start = {}, .left = {}},
+        {});
     planView(record,
              {.volume = map.volume,
               .states = map.states,

@@ -19,6 +19,8 @@ TabletopMap::TabletopMap() {
   }
   states = makeStateGrid(volume);
   collision = CollisionGrid(states, settings.free_flyer.cell_m, settings.free_flyer.body_radius_m);
+  motion = FreeFlyerPlanner(settings.free_flyer);
+  motion.observe(states);
 }
 
 const TabletopMap& tabletopMap() {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/motion/collision_grid.h"
+#include "core/motion/path_planner.h"
 #include "core/volume/tsdf_volume.h"
 #include "io/config_file.h"
 
@@ -12,6 +12,7 @@ struct TabletopMap {
   TsdfVolume volume;
   StateGrid states;
   CollisionGrid collision;
+  FreeFlyerPlanner motion{{}};
   TabletopMap();
 };
 

@@ -40,8 +40,8 @@ TEST(FreeFlyer, FliesStraightAndTakesLengthOverSpeed) {
   const MotionPlan plan = robot.plan(goal, 1);
   ASSERT_EQ(plan.verdict, Reachability::Reachable);
   EXPECT_TRUE(plan.straight);
-  EXPECT_NEAR(robot.execute(plan), 0.7 / 0.5, 1e-9);
-  EXPECT_TRUE(robot.cameraPose().isApprox(goal));
+  EXPECT_NEAR(robot.execute(plan, {}), 0.7 / 0.5, 1e-9);
+  EXPECT_TRUE(robot.state().T_world_camera.isApprox(goal));
 }
 
 TEST(FreeFlyer, GoesAroundAnObstacleTheSameWayEachTime) {
@@ -61,8 +61,8 @@ TEST(FreeFlyer, StaysWhereItIsWithoutAPath) {
   robot.observe(walledSpace());
   const MotionPlan blocked = robot.plan(at(0.6, 0.6, 0.3), 1);
   EXPECT_EQ(blocked.verdict, Reachability::InCollision);
-  EXPECT_EQ(robot.execute(blocked), 0.0);
-  EXPECT_TRUE(robot.cameraPose().isApprox(at(0.2, 0.6, 0.3)));
+  EXPECT_EQ(robot.execute(blocked, {}), 0.0);
+  EXPECT_TRUE(robot.state().T_world_camera.isApprox(at(0.2, 0.6, 0.3)));
 }
 
 TEST(FreeFlyer, RefusesAnImpossibleConfiguration) {

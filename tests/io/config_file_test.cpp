@@ -61,6 +61,7 @@ config::Value otherValue(const config::Field& field) {
     }
     case config::Kind::Numbers:
       if (field.max_count == 4) return std::vector<double>{0.6, 0.0, -0.8, 0.0};
+      if (field.key == "arm.clear_boxes_m") return std::vector<double>{0.1, 0.2, 1.0 / 3.0, 4.0, 5.5, 6.0};
       if (field.min_count != field.max_count) return std::vector<double>{1.0 / 3.0, 0.7, 2.5};
       return std::vector<double>{1.0 / 3.0, -0.125, 7.3};
     case config::Kind::Integers:
@@ -110,6 +111,8 @@ TEST(ConfigFile, WritingAndReadingGivesEqualValuesForEveryField) {
   EXPECT_EQ(read.exploration.contour.gain, written.exploration.contour.gain);
   EXPECT_EQ(read.exploration.scan, written.exploration.scan);
   EXPECT_EQ(read.free_flyer, written.free_flyer);
+  EXPECT_EQ(read.arm, written.arm);
+  EXPECT_EQ(read.arm_errors, written.arm_errors);
   EXPECT_EQ(effectiveToml(read).size() > 1000, true);
 }
 

@@ -226,6 +226,18 @@ TEST(RunFile, RefusesAnOctreeThatCannotBe) {
               ::testing::AllOf(HasSubstr("is damaged"), HasSubstr("coarse levels")));
 }
 
+TEST(RunFile, RefusesAnArmThatCannotBe) {
+  const TestFolder folder;
+  const auto openWith = [&](const auto& damage) {
+    RunHeader header = randomHeader(5);
+    damage(header.arm->model);
+    RunWriter(folder / "a.vantage", header).finish("steps done");
+    return inputError([&] { RunReader r(folder / "a.vantage"); });
+  };
+  EXPECT_THAT(openWith([](RobotModel& arm) { arm.joints.clear(); }), HasSubstr("number of joints"));
+  EXPECT_THAT(openWith([](RobotModel& arm) { arm.shapes[0].frame = 6; }), HasSubstr("not there"));
+}
+
 TEST(RunFile, IsOneFileOnceFinishedAndReadingMakesNoOther) {
   const TestFolder folder;
   writeRun(folder / "a.vantage", 5, 2);

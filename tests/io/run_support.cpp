@@ -63,11 +63,36 @@ std::shared_ptr<ViewSearch> randomSearch(Randomizer& random, std::size_t points,
 
 }  // namespace
 
+namespace {
+
+JointVector randomJoints(Randomizer& random) {
+  JointVector q(6);
+  for (double& value : q) random(value);
+  return q;
+}
+
+/// Six joints, and bodies on some of them.
+ArmHeader randomArm(Randomizer& random) {
+  ArmHeader arm;
+  random(arm.model.name, arm.T_world_base, arm.clear_boxes, arm.model.T_tip_camera, arm.model.camera_link);
+  arm.model.joints.resize(6);
+  for (ArmJoint& joint : arm.model.joints) random(joint);
+  arm.model.shapes.resize(3);
+  for (LinkShape& shape : arm.model.shapes) {
+    random(shape);
+    shape.frame = static_cast<int>(random.random()() % 7) - 1;
+  }
+  return arm;
+}
+
+}  // namespace
+
 RunHeader randomHeader(std::uint64_t seed) {
   Randomizer random(seed);
   RunHeader header;
   random(header, header.truth);
   header.volume = testGrid();
+  header.arm = randomArm(random);
   header.octree.emplace();  // values in range: a reader checks them
   header.octree->planner.coarse_levels = 3;
   header.octree->map.voxel_size_m = 0.02;
@@ -95,6 +120,16 @@ StepRecord randomRecord(std::uint64_t seed, int step, bool closing) {
   filtered->mask.resize(depth->depth.depth_m.size());
   for (std::uint8_t& reason : filtered->mask) random(reason);
   record.filtered = filtered;
+  auto joints = std::make_shared<std::vector<JointVector>>();
+  for (std::size_t f = 0; f < record.scan.size(); ++f) joints->push_back(randomJoints(random));
+  record.joints = joints;
+  auto trajectory = std::make_shared<JointTrajectory>();
+  for (int p = 0; p < 4; ++p) {
+    trajectory->time_s.push_back(p);
+    trajectory->positions.push_back(randomJoints(random));
+    trajectory->velocities.push_back(randomJoints(random));
+  }
+  record.trajectory = trajectory;
   record.changed_bricks = randomBricks(random);
 
   auto contours = randomValue<Contours>(random);
@@ -147,6 +182,8 @@ void expectEqual(const StepRecord& a, const StepRecord& b) {
   EXPECT_EQ(a.realised_voxels, b.realised_voxels);
   EXPECT_EQ(bytesOf(a.depth), bytesOf(b.depth)) << "depth";
   EXPECT_EQ(bytesOf(a.filtered), bytesOf(b.filtered)) << "filtered";
+  EXPECT_EQ(bytesOf(a.joints), bytesOf(b.joints)) << "joints";
+  EXPECT_EQ(bytesOf(a.trajectory), bytesOf(b.trajectory)) << "trajectory";
   EXPECT_EQ(bytesOf(a.contours), bytesOf(b.contours)) << "contours";
   EXPECT_EQ(bytesOf(a.surface), bytesOf(b.surface)) << "surface";
   EXPECT_EQ(bytesOf(a.labels), bytesOf(b.labels)) << "labels";
@@ -184,7 +221,7 @@ bool equal(const StepRecord& a, const StepRecord& b) {
 
 bool equal(const RunHeader& a, const RunHeader& b) {
   return bytesOf(a) == bytesOf(b) && bytesOf(a.truth) == bytesOf(b.truth) &&
-         bytesOf(a.octree) == bytesOf(b.octree);
+         bytesOf(a.octree) == bytesOf(b.octree) && bytesOf(a.arm) == bytesOf(b.arm);
 }
 
 void writeRun(const std::filesystem::path& path, std::uint64_t seed, int steps) {

@@ -18,12 +18,17 @@ Settings sceneSettings(const std::string& scene, const std::vector<std::string>&
 
 SimulatedRun exploreScene(const std::string& name, const Settings& settings, int threads,
                           const RunObserver& observer) {
+  SimulatedDepthCamera camera(loadScene(name), {settings.camera, settings.sensor, settings.exploration.seed});
+  FreeFlyer robot(settings.free_flyer, initialScanPoses(settings.exploration.scan).back());
+  return exploreWith(name, settings, camera, robot, threads, observer);
+}
+
+SimulatedRun exploreWith(const std::string& name, const Settings& settings, DepthCamera& camera, Robot& robot,
+                         int threads, const RunObserver& observer) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
   const SceneFile scene = loadScene(name);
   SimulatedRun run;
   run.truth = std::make_shared<SceneTruth>(scene);
-  SimulatedDepthCamera camera(scene, {settings.camera, settings.sensor, settings.exploration.seed});
-  FreeFlyer robot(settings.free_flyer, initialScanPoses(settings.exploration.scan).back());
   Explorer explorer(settings.exploration, camera, robot, run.truth.get());
   explorer.addObserver([&](const std::shared_ptr<const StepRecord>& record) {
     if (observer) observer(*record, explorer.world());

@@ -29,4 +29,8 @@ using RunObserver = std::function<void(const StepRecord&, const WorldModel&)>;
 SimulatedRun exploreScene(const std::string& scene, const Settings& settings, int threads = 2,
                           const RunObserver& observer = {});
 
+/// The same with another camera and robot.
+SimulatedRun exploreWith(const std::string& scene, const Settings& settings, DepthCamera& camera,
+                         Robot& robot, int threads = 2, const RunObserver& observer = {});
+
 }  // namespace vantage::testing

@@ -38,6 +38,7 @@ void addViews(CLI::App& app, const GlobalOptions& global, Action& action);
 void addSegment(CLI::App& app, const GlobalOptions& global, Action& action);
 void addGain(CLI::App& app, const GlobalOptions& global, Action& action);
 void addPlan(CLI::App& app, const GlobalOptions& global, Action& action);
+void addPath(CLI::App& app, const GlobalOptions& global, Action& action);
 void addCompare(CLI::App& app, const GlobalOptions& global, Action& action);
 void addScenes(CLI::App& app, const GlobalOptions& global, Action& action);
 void addRobots(CLI::App& app, const GlobalOptions& global, Action& action);

@@ -45,6 +45,7 @@ RunHeader makeHeader(const GlobalOptions& global, const ExploreOptions& options,
     header.octree = OctreeHeader{settings.exploration.hierarchical, settings.exploration.octree,
                                  settings.exploration.objectBox()};
   header.free_flyer = settings.free_flyer;
+  header.arm = input.arm;
   header.replay = input.replay;
   header.truth = input.truth_mesh;
   return header;
@@ -131,7 +132,8 @@ void checkOutputs(const GlobalOptions& global, const ExploreOptions& options) {
 
 int explore(const GlobalOptions& global, ExploreOptions options) {
   checkOutputs(global, options);
-  ExplorationInput input = openExplorationInput(global, options.input, options.planner, options.steps);
+  ExplorationInput input =
+      openExplorationInput(global, options.input, options.planner, options.steps, options.robot);
   if (options.run.empty()) options.run = input.name + ".vantage";
   checkMaps(input.settings.exploration, input.settings);
   Console console(global);
@@ -188,7 +190,10 @@ void addExplore(CLI::App& app, const GlobalOptions& global, Action& action) {
   command->add_option("--steps", options->steps, "Number of next best views")
       ->check(CLI::Range(0, 100000))
       ->type_name("N");
-  command->add_option("--robot", options->robot, "What carries the camera")->check(CLI::IsMember({"free"}));
+  command
+      ->add_option("--robot", options->robot,
+                   "What carries the camera: free, an arm of 'vantage robots', or a URDF file")
+      ->type_name("free|NAME|FILE.urdf");
   command->add_option("--snapshots", options->snapshots, "Folder for pictures of every step")
       ->type_name("DIR");
   command->footer("Example: vantage explore tabletop -o tabletop.vantage --snapshots pictures");

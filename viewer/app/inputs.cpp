@@ -8,9 +8,12 @@
 #include <filesystem>
 
 #include "hardware/replay_depth_camera.h"
+#include "hardware/simulated_arm.h"
 #include "hardware/simulated_depth_camera.h"
 #include "hardware/simulated_robot.h"
 #include "io/octree_file.h"
+#include "io/robot_file.h"
+#include "io/run_robot.h"
 #include "io/scene_file.h"
 #include "io/scene_truth.h"
 #include "io/volume_file.h"
@@ -19,6 +22,8 @@
 
 namespace vantage::app {
 namespace {
+
+constexpr const char* kFreeFlyer = "free";
 
 /// The command line's part: --config, --set, --seed.
 void applyCommandLine(Settings& settings, const GlobalOptions& global) {
@@ -45,7 +50,27 @@ FeasibleViews feasibleViews(const Settings& settings) {
   return views;
 }
 
-ExplorationInput openScene(const GlobalOptions& global, const std::string& name) {
+/// Puts the camera into the hand of an arm.
+void giveArm(ExplorationInput& input, const std::string& robot) {
+  const Settings& s = input.settings;
+  if (!s.exploration.enforce_reachability)
+    throw InputError("exploration.enforce_reachability = false",
+                     "an arm can't go where it can't; leave it on, or explore with --robot free");
+  const RobotModel model = loadRobot(robot);
+  try {
+    auto arm = startedArm(model, s);
+    input.arm = ArmHeader{model, arm->planner().T_world_base(), s.arm.clear_boxes};
+    input.scene_camera = std::move(input.camera);
+    input.camera = std::make_unique<EyeInHandCamera>(*input.scene_camera, *arm);
+    input.robot = std::move(arm);
+  } catch (const ArmRefusal& refusal) {
+    throw InputError("--robot " + robot, refusal.what());
+  } catch (const std::invalid_argument& error) {
+    throw InputError("--robot " + robot, error.what());
+  }
+}
+
+ExplorationInput openScene(const GlobalOptions& global, const std::string& name, const std::string& robot) {
   const SceneFile scene = loadScene(name);
   ExplorationInput input;
   input.name = scene.name;
@@ -57,7 +82,10 @@ ExplorationInput openScene(const GlobalOptions& global, const std::string& name)
   s.validate();
   input.camera = std::make_unique<SimulatedDepthCamera>(
       scene, SimulatedCameraConfig{s.camera, s.sensor, s.exploration.seed});
-  input.robot = std::make_unique<FreeFlyer>(s.free_flyer, initialScanPoses(s.exploration.scan).back());
+  if (robot == kFreeFlyer)
+    input.robot = std::make_unique<FreeFlyer>(s.free_flyer, initialScanPoses(s.exploration.scan).back());
+  else
+    giveArm(input, robot);
   input.truth = std::make_unique<SceneTruth>(scene, feasibleViews(s));
   input.truth_mesh = sceneMesh(scene, false);
   return input;
@@ -142,6 +170,7 @@ LoadedMap loadRunMap(const GlobalOptions& global, const RunMap& map, MapNeed nee
   loaded.record =
       step == run.closingStep() ? run.closing(RunDetail::NoVolume) : run.step(step, RunDetail::NoVolume);
   for (const ScanPose& pose : loaded.record->scan) loaded.frames_taken.insert(pose.frame);
+  loaded.motion = motionPlannerOf(run.header(), loaded.settings);
   if (run.header().replay) loaded.recording = run.header().input;
   return loaded;
 }
@@ -149,12 +178,16 @@ LoadedMap loadRunMap(const GlobalOptions& global, const RunMap& map, MapNeed nee
 }  // namespace
 
 ExplorationInput openExplorationInput(const GlobalOptions& global, const std::string& name,
-                                      const std::string& planner, std::optional<int> steps) {
+                                      const std::string& planner, std::optional<int> steps,
+                                      const std::string& robot) {
   requireScene(name);
   GlobalOptions options = global;  // --planner and --steps are short for settings and beat them
   if (!planner.empty()) options.assignments.push_back(fmt::format("exploration.planner={}", planner));
   if (steps) options.assignments.push_back(fmt::format("exploration.steps={}", *steps));
-  return std::filesystem::is_directory(name) ? openReplay(options, name) : openScene(options, name);
+  if (!std::filesystem::is_directory(name)) return openScene(options, name, robot);
+  if (robot != kFreeFlyer)
+    throw InputError("--robot " + robot, name + " is a recording, which no arm moves; leave --robot out");
+  return openReplay(options, name);
 }
 
 Settings commandSettings(const GlobalOptions& global) {

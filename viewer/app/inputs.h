@@ -24,16 +24,20 @@ struct ExplorationInput {
   std::string scene_text;  ///< scene TOML, empty for a data set
   bool replay = false;
   Settings settings;
+  std::unique_ptr<DepthCamera> scene_camera;  ///< of an arm's scene, behind `camera`; else null
   std::unique_ptr<DepthCamera> camera;
   std::unique_ptr<Robot> robot;
+  std::optional<ArmHeader> arm;        ///< empty for the free flyer
   std::unique_ptr<GroundTruth> truth;  ///< null for a data set
   TriangleMesh truth_mesh;
 };
 
 /// Opens SCENE (embedded name or TOML file) or DATASET (a folder). Settings: defaults < user file < scene or
-/// data set < --config < --set; `planner` and `steps` override them. \throws InputError
+/// data set < --config < --set; `planner` and `steps` override them. `robot` is "free", an embedded arm or
+/// a URDF file; recorded data have none but "free". \throws InputError
 ExplorationInput openExplorationInput(const GlobalOptions& global, const std::string& input,
-                                      const std::string& planner, std::optional<int> steps);
+                                      const std::string& planner, std::optional<int> steps,
+                                      const std::string& robot);
 
 /// Settings of commands that take no scene: defaults < user file < --config < --set. \throws InputError
 Settings commandSettings(const GlobalOptions& global);
@@ -58,7 +62,8 @@ struct LoadedMap {
   Exclusions exclusions;             ///< what the run's earlier steps left out
   std::string recording;             ///< of a replay: folder of the data set
   std::set<int> frames_taken;        ///< of a replay: numbers of the frames that were served up to the step
-  Settings settings;                 ///< commandSettings(), over the run's own configuration for RUN#STEP
+  std::shared_ptr<MotionPlanner> motion;  ///< of the run's robot; null for maps that are no run's
+  Settings settings;  ///< commandSettings(), over the run's own configuration for RUN#STEP
 };
 
 /// MAP: a `.vti`, `.bt` or `.ot` file, `RUN.vantage` (its last map), `RUN.vantage#STEP` or `RUN.vantage#end`.

@@ -107,6 +107,7 @@ void addCommands(CLI::App& app, const GlobalOptions& global, Action& action) {
   addSegment(app, global, action);
   addGain(app, global, action);
   addPlan(app, global, action);
+  addPath(app, global, action);
   addScenes(app, global, action);
   addRobots(app, global, action);
   addCompare(app, global, action);

@@ -8,6 +8,7 @@
 #include "core/exploration/replan.h"
 #include "core/geometry/check.h"
 #include "io/json_summary.h"
+#include "io/run_robot.h"
 #include "io/table_file.h"
 #include "viewer/app/command.h"
 #include "viewer/app/console.h"
@@ -24,16 +25,19 @@ struct PlanOptions {
 
 /// Reachability without a robot: from the pose of a recorded step a path is planned; for a map alone the
 /// sensor only has to fit. A replay offers what its recording can serve.
-ReachPose makeReach(const CollisionGrid& collision, const LoadedMap& map, MotionPlan& reported) {
-  StepReach reach{.collision = collision,
-                  .robot = map.settings.free_flyer,
-                  .exploration = map.settings.exploration,
-                  .step = map.step,
-                  .start = {},
-                  .left = {}};
-  if (map.record && !map.record->scan.empty()) reach.start = map.record->scan.back().T_world_camera;
+ReachPose makeReach(const MotionPlanner& motion, const LoadedMap& map, MotionPlan& reported) {
+  StepReach reach{
+      .planner = motion, .exploration = map.settings.exploration, .step = map.step, .start = {}, .left = {}};
+  if (map.record && !map.record->scan.empty()) reach.start = stateAfterScan(*map.record);
   if (!map.recording.empty() && map.settings.exploration.serve_distance_m > 0.0) reach.left = posesLeft(map);
   return stepReach(std::move(reach), reported);
+}
+
+/// The run's robot, else the free flyer, in the map.
+std::shared_ptr<MotionPlanner> motionIn(const LoadedMap& map, const StateGrid& states) {
+  auto motion = map.motion ? map.motion : std::make_shared<FreeFlyerPlanner>(map.settings.free_flyer);
+  motion->observe(states);
+  return motion;
 }
 
 std::vector<PlanRow> rankedViews(const StepRecord& record, const ContourViewConfig& views) {
@@ -80,8 +84,7 @@ void planContour(const LoadedMap& map, PlannerKind kind, StepRecord& record, Mot
   planner.segment_by_segment = kind == PlannerKind::Contour;
   requireCollisionCell(map.settings, map.volume.geometry().voxel_size_m);
   const StateGrid states = makeStateGrid(map.volume);
-  const CollisionGrid collision(states, map.settings.free_flyer.cell_m,
-                                map.settings.free_flyer.body_radius_m);
+  const auto motion = motionIn(map, states);
   const PlanViewInput input{.volume = map.volume,
                             .states = states,
                             .camera = map.settings.camera,
@@ -90,7 +93,7 @@ void planContour(const LoadedMap& map, PlannerKind kind, StepRecord& record, Mot
                             .executed = map.exclusions.executed,
                             .disappointing = map.exclusions.disappointing};
   record.metrics.unknown_voxels = states.count(VoxelState::Unknown, config.workspace);
-  planView(record, input, makeReach(collision, map, reported), publish, control);
+  planView(record, input, makeReach(*motion, map, reported), publish, control);
 }
 
 void planOctree(const LoadedMap& map, PlannerKind kind, StepRecord& record, MotionPlan& reported,
@@ -104,8 +107,7 @@ void planOctree(const LoadedMap& map, PlannerKind kind, StepRecord& record, Moti
   const Box object_box = objectBoxOf(map), workspace = mappedBox(map);
   const StatePyramid pyramid(*map.octree, planner.coarse_levels);
   const RayTree tree(planner.sensor, voxel_m, planner.coarse_levels);
-  const CollisionGrid collision(pyramid.finest(), map.settings.free_flyer.cell_m,
-                                map.settings.free_flyer.body_radius_m);
+  const auto motion = motionIn(map, pyramid.finest());
   const bool on_step = map.record && !map.record->scan.empty();
   const Pose current = on_step ? map.record->scan.back().T_world_camera
                                : makePose(object_box.center(), Eigen::Quaterniond::Identity());
@@ -126,7 +128,7 @@ void planOctree(const LoadedMap& map, PlannerKind kind, StepRecord& record, Moti
       states.count(VoxelState::Unknown, map.record ? config.workspace : workspace);
   record.box = std::make_shared<BoxMetrics>(BoxMetrics{states.count(VoxelState::Unknown, object_box),
                                                        states.count(VoxelState::Occupied, object_box)});
-  planUtility(record, input, makeReach(collision, map, reported), publish, control);
+  planUtility(record, input, makeReach(*motion, map, reported), publish, control);
 }
 
 int plan(const GlobalOptions& global, const PlanOptions& options) {

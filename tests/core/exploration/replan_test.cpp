@@ -331,22 +331,22 @@ TEST(PlanUtility, EvaluatesTheRecordedCandidatesAgain) {
 /// A room with a wall in the middle that one side cannot leave.
 struct Room {
   StateGrid states = makeStates();
-  CollisionGrid collision{states, 0.04, 0.08};
-  FreeFlyerConfig robot;
+  FreeFlyerPlanner planner = makePlanner(states);
   ExplorationConfig exploration;
-  Pose start = lookAt({-0.5, 0.0, 0.5}, {0.0, 0.0, 0.5});
+  RobotState start = {lookAt({-0.5, 0.0, 0.5}, {0.0, 0.0, 0.5}), {}};
   Pose beside = lookAt({-0.5, 0.4, 0.5}, {0.0, 0.0, 0.5});
   Pose beyond = lookAt({0.5, 0.0, 0.5}, {0.0, 0.0, 0.5});
   Pose inside = lookAt({0.0, 0.0, 0.5}, {1.0, 0.0, 0.5});
 
-  Room() { robot.reach_m = 0.0; }
   StepReach reach() const {
-    return {.collision = collision,
-            .robot = robot,
-            .exploration = exploration,
-            .step = 1,
-            .start = start,
-            .left = {}};
+    return {.planner = planner, .exploration = exploration, .step = 1, .start = start, .left = {}};
+  }
+  static FreeFlyerPlanner makePlanner(const StateGrid& states) {
+    FreeFlyerConfig robot;
+    robot.reach_m = 0.0;
+    FreeFlyerPlanner planner(robot);
+    planner.observe(states);
+    return planner;
   }
   static StateGrid makeStates() {
     StateGrid grid(GridGeometry{{-0.99, -0.99, 0.01}, 0.02, {100, 100, 50}});
@@ -389,8 +389,8 @@ TEST(StepReach, AReplayServesWhatItsFramesShow) {
   replay.left = std::vector<ScanPose>{{room.beside, 3}};
   MotionPlan reported;
   EXPECT_EQ(stepReach(replay, reported)(room.beside).verdict, Reachability::Reachable);
-  EXPECT_EQ(stepReach(replay, reported)(room.start).verdict, Reachability::NoFrame);
-  EXPECT_EQ(quickReach(replay, {})(room.start).verdict, Reachability::NoFrame);
+  EXPECT_EQ(stepReach(replay, reported)(room.start.T_world_camera).verdict, Reachability::NoFrame);
+  EXPECT_EQ(quickReach(replay, {})(room.start.T_world_camera).verdict, Reachability::NoFrame);
 }
 
 TEST(QuickReach, TakesTheStepsVerdictsAndElsewhereOnlyFits) {
