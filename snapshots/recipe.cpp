@@ -63,7 +63,7 @@ void addContourDetails(std::vector<Recipe>& all) {
 std::vector<Recipe> makeRecipes() {
   std::vector<Recipe> all;
   all.push_back({"scene", "Scene and sensor", "the true scene, the sensor and its last depth image",
-                 viewOf({Layer::Truth, Layer::Sensor, Layer::DepthImage}), scanFigures});
+                 viewOf({Layer::Truth, Layer::Arm, Layer::Sensor, Layer::DepthImage}), scanFigures});
   all.push_back({"filters", "Depth filters", "what the depth filters removed of the last image",
                  viewOf({Layer::Truth, Layer::Sensor, Layer::FilteredDepth}), filterFigures});
   all.push_back({"states", "Voxel states", "what is occupied and what is still unknown",
@@ -102,6 +102,11 @@ std::vector<Recipe> makeRecipes() {
                  viewOf({Layer::Segments, Layer::SegmentRanks, Layer::Unknown, Layer::ContourVoxels,
                          Layer::ChosenView, Layer::Path}),
                  viewFigures});
+  all.push_back({kArmRecipe, "The arm and its way to the next best view",
+                 "where the arm stands after the scan, how it moves, and where it arrives",
+                 viewOf({Layer::Surface, Layer::RankedViews, Layer::ChosenView, Layer::Path, Layer::Arm,
+                         Layer::ArmMotion}),
+                 viewFigures});
   addContourDetails(all);
   return all;
 }
@@ -110,9 +115,9 @@ std::vector<Recipe> makeRecipes() {
 
 bool Recipe::planning() const {
   static constexpr Layer kOfTheMap[] = {
-      Layer::Workspace, Layer::ObjectBox,  Layer::Axes,         Layer::Truth,  Layer::Occupied,
-      Layer::Unknown,   Layer::Free,       Layer::Slices,       Layer::Octree, Layer::Surface,
-      Layer::Sensor,    Layer::DepthImage, Layer::FilteredDepth};
+      Layer::Workspace, Layer::ObjectBox, Layer::Axes,   Layer::Truth,      Layer::Occupied,
+      Layer::Unknown,   Layer::Free,      Layer::Slices, Layer::Arm,        Layer::ClearBoxes,
+      Layer::Octree,    Layer::Surface,   Layer::Sensor, Layer::DepthImage, Layer::FilteredDepth};
   LayerSet rest = view.layers;
   for (const Layer layer : kOfTheMap) rest.set(layer, false);
   return rest != LayerSet();
@@ -164,6 +169,7 @@ std::vector<std::string> defaultRecipesOf(const RunHeader& header) {
     for (const std::string& name : defaultRecipes(planner))
       if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   }
+  if (header.arm) names.push_back(kArmRecipe);
   return names;
 }
 

@@ -33,10 +33,13 @@ const std::vector<Recipe>& recipes();
 /// Names of all recipes.
 std::vector<std::string> recipeNames();
 
+/// The one that shows a run's arm.
+inline constexpr const char* kArmRecipe = "arm";
+
 /// Names of those that are made of a step unless others are asked for.
 std::vector<std::string> defaultRecipes(PlannerKind planner = PlannerKind::Contour);
 
-/// The same for a whole run, for all its planners (RunHeader::planner), each recipe once.
+/// The same for a whole run, for all its planners (RunHeader::planner) and its arm, each recipe once.
 std::vector<std::string> defaultRecipesOf(const RunHeader& header);
 
 /// \throws InputError that suggests the nearest known name.

@@ -101,6 +101,9 @@ class SnapshotSession {
     const std::vector<std::string> names =
         request.recipes.empty() ? defaultRecipesOf(*session_.header()) : request.recipes;
     for (const std::string& name : names) {
+      if (name == kArmRecipe && !session_.header()->arm)
+        throw InputError("recipe '" + name + "'",
+                         "the run has no arm; explore with --robot NAME ('vantage robots' lists them)");
       recipes_.push_back(recipeFrom(name));
       for (const std::string& assignment : request.style) setStyle(recipes_.back().view.style, assignment);
     }

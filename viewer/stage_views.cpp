@@ -24,7 +24,7 @@ std::vector<StageView> contourStages(bool segments) {
                              : with({Layer::Surface, Layer::Unknown, Layer::RankedViews, Layer::ChosenView,
                                      Layer::Path})),
       {"scan", "Scan", "the last depth image and where it was taken",
-       with({Layer::Truth, Layer::Sensor, Layer::DepthImage})},
+       with({Layer::Truth, Layer::Arm, Layer::Sensor, Layer::DepthImage})},
       {"fused", "Fused", "the map after fusion: occupied voxels and the frontier of unknown space",
        with({Layer::Occupied, Layer::Unknown})},
       {"contours", "Contours", "free voxels beside surface and unknown, and contour points with normals",
@@ -42,7 +42,8 @@ std::vector<StageView> contourStages(bool segments) {
   stages.push_back({"scores", "Scores", "the best views of the segment that was tried",
                     with({Layer::Surface, Layer::Unknown, Layer::RankedViews})});
   stages.push_back({"path", "Path", "the chosen view and the way to it",
-                    with({Layer::Surface, Layer::RankedViews, Layer::ChosenView, Layer::Path})});
+                    with({Layer::Surface, Layer::RankedViews, Layer::ChosenView, Layer::Path, Layer::Arm,
+                          Layer::ArmMotion})});
   return stages;
 }
 
@@ -50,7 +51,7 @@ std::vector<StageView> octreeStages() {
   return {overviewStage(with({Layer::ObjectBox, Layer::Occupied, Layer::Unknown, Layer::RankedViews,
                               Layer::ChosenView, Layer::Path})),
           {"scan", "Scan", "the last depth image and where it was taken",
-           with({Layer::Truth, Layer::Sensor, Layer::DepthImage})},
+           with({Layer::Truth, Layer::Arm, Layer::Sensor, Layer::DepthImage})},
           {"fused", "Fused", "the map after fusion: occupied voxels and the frontier of unknown space",
            with({Layer::Occupied, Layer::Unknown})},
           {"octree", "Octree", "occupied and unknown nodes where tracing starts",
@@ -62,7 +63,8 @@ std::vector<StageView> octreeStages() {
           {"scores", "Scores", "all candidates by utility, and why the others fell out",
            with({Layer::ObjectBox, Layer::Occupied, Layer::UtilitySphere})},
           {"path", "Path", "the chosen view and the way to it",
-           with({Layer::ObjectBox, Layer::Occupied, Layer::RankedViews, Layer::ChosenView, Layer::Path})}};
+           with({Layer::ObjectBox, Layer::Occupied, Layer::RankedViews, Layer::ChosenView, Layer::Path,
+                 Layer::Arm, Layer::ArmMotion})}};
 }
 
 using Stages = std::vector<StageView>;

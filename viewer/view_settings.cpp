@@ -38,6 +38,9 @@ constexpr std::array<LayerWords, kLayerCount> kLayers = {{{"workspace", "workspa
                                                           {"ranked-views", "ranked views"},
                                                           {"chosen-view", "chosen view"},
                                                           {"path", "path"},
+                                                          {"arm", "arm"},
+                                                          {"arm-motion", "motion of the arm"},
+                                                          {"clear-boxes", "space vouched for"},
                                                           {"sensor", "sensor"},
                                                           {"depth-image", "depth image"},
                                                           {"filtered-depth", "what the filters removed"}}};

@@ -41,11 +41,14 @@ enum class Layer : std::uint8_t {
   RankedViews,     ///< frusta of the best views: of the searched segment, or by utility
   ChosenView,
   Path,           ///< motion to the chosen view
+  Arm,            ///< the arm after the last scan
+  ArmMotion,      ///< the arm on its way to the chosen view
+  ClearBoxes,     ///< space around an arm that is vouched to be free
   Sensor,         ///< the sensor where the last scan was taken
   DepthImage,     ///< last depth image, beside the scene
   FilteredDepth,  ///< what the filters removed of it, in the scene and beside it
 };
-inline constexpr int kLayerCount = 29;
+inline constexpr int kLayerCount = 32;
 
 /// Name of a layer in files and on the command line, e.g. "contour-points".
 std::string_view layerName(Layer layer);

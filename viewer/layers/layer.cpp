@@ -12,7 +12,8 @@ LayerContent buildLayer(Layer layer, const SceneFrame& frame, const LayerStyle& 
       segmentLabelsLayer,  segmentsLayer,     segmentRanksLayer, contourVoxelsLayer, contourPointsLayer,
       surfaceNormalsLayer, contourPosesLayer, candidatesLayer,   utilitySphereLayer, hitVoxelsLayer,
       occludersLayer,      coarseRaysLayer,   refinedRaysLayer,  rankedViewsLayer,   chosenViewLayer,
-      pathLayer,           sensorLayer,       depthImageLayer,   filteredDepthLayer};
+      pathLayer,           armLayer,          armMotionLayer,    clearBoxesLayer,    sensorLayer,
+      depthImageLayer,     filteredDepthLayer};
   return kBuild[static_cast<std::size_t>(layer)](frame, style);
 }
 

@@ -21,6 +21,8 @@ enum Product : unsigned {
   kSearch = 1 << 8,
   kUtilities = 1 << 9,
   kGain = 1 << 10,  ///< settings of gains and candidate views
+  kArm = 1 << 11,
+  kTrajectory = 1 << 12,
 };
 
 // What a layer reads of a style.
@@ -98,6 +100,12 @@ constexpr Reads readsOf(Layer layer) {
       return {kContours | kSearch | kUtilities, kLines};
     case Layer::Path:
       return {kSearch | kUtilities, kNone};
+    case Layer::Arm:
+      return {kScan | kArm, kNone};
+    case Layer::ArmMotion:
+      return {kScan | kArm | kTrajectory, kNone};
+    case Layer::ClearBoxes:
+      return {kArm, kLines};
     case Layer::Sensor:
       return {kScan, kLines};
     case Layer::DepthImage:
@@ -151,6 +159,8 @@ LayerInputs::LayerInputs(const SceneFrame& frame)
       positions(frame.record.positions),
       search(frame.record.search),
       utilities(frame.record.utilities),
+      joints(frame.record.joints),
+      trajectory(frame.record.trajectory),
       planner(plannerOf(frame)),
       camera(frame.header.camera),
       volume(frame.header.volume),
@@ -158,6 +168,7 @@ LayerInputs::LayerInputs(const SceneFrame& frame)
       views(frame.header.contour_config.views),
       gain(frame.header.contour_config.gain),
       saliency_config(frame.header.contour_config.saliency) {
+  arm = frame.header.arm ? frame.header.arm->model.name : "";
   if (!onOctree(frame)) return;
   octree = frame.header.octree->planner;
   object_box = frame.header.octree->object_box;
@@ -172,7 +183,9 @@ bool stillStands(Layer layer, const LayerInputs& a, const LayerInputs& b) {
          same(kLabels, a.labels == b.labels) &&
          same(kSaliency, a.saliency == b.saliency && a.saliency_config == b.saliency_config) &&
          same(kPositions, a.positions == b.positions) && same(kSearch, a.search == b.search) &&
-         same(kUtilities, a.utilities == b.utilities) && same(kGain, a.gain == b.gain && a.views == b.views);
+         same(kUtilities, a.utilities == b.utilities) && same(kArm, a.joints == b.joints && a.arm == b.arm) &&
+         same(kTrajectory, a.trajectory == b.trajectory) &&
+         same(kGain, a.gain == b.gain && a.views == b.views);
 }
 
 bool sameStyle(Layer layer, const LayerStyle& a, const LayerStyle& b) {

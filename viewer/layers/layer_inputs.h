@@ -19,8 +19,10 @@ struct LayerInputs {
   std::uint64_t truth;  ///< tells one true scene from another
   int step;
   std::size_t scan_poses;
-  std::shared_ptr<const void> depth, contours, surface, labels, saliency, positions, search, utilities;
+  std::shared_ptr<const void> depth, contours, surface, labels, saliency, positions, search, utilities,
+      joints, trajectory;
   std::string planner;
+  std::string arm;  ///< name, empty for the free flyer
   PinholeCamera camera;
   GridGeometry volume;
   Box workspace;

@@ -125,6 +125,9 @@ bool isClipped(Layer layer) {
     case Layer::RankedViews:
     case Layer::ChosenView:
     case Layer::Path:
+    case Layer::Arm:
+    case Layer::ArmMotion:
+    case Layer::ClearBoxes:
     case Layer::Sensor:
     case Layer::DepthImage:
     case Layer::FilteredDepth:

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "viewer/layers/layer.h"
 #include "viewer/layers/shapes.h"
@@ -12,6 +14,14 @@
 
 namespace vantage {
 namespace {
+
+/// "2 in collision, 1 beyond the joints".
+std::string reasonsText(const std::map<Reachability, int>& refused) {
+  std::string text;
+  for (const auto& [verdict, count] : refused)
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + refusalWord(verdict);
+  return text;
+}
 
 using Mark = LegendEntry::Mark;
 
@@ -74,11 +84,13 @@ LayerContent rankedViewsLayer(const SceneFrame& frame, const LayerStyle& style) 
   const GainRange range = gainRange(search ? frame.header.contour_config.gain.gain_threshold : 0.0, ranked);
   const PinholeCamera camera = viewCamera(frame);
   LineSet colored, barred;
+  std::map<Reachability, int> refused;
   int shown = 0, unreachable = 0;
   for (const RankedPosition& view : ranked) {
     if (view.unreachable()) {
       // They stand where no sensor goes: they don't widen the picture.
       if (unreachable++ >= style.unreachable_views) continue;
+      ++refused[view.reachability];
       addDashedFrustum(barred, camera, view.T_world_camera, style.frustum_length_m);
       addCross(barred, view.T_world_camera, 0.014);
     } else if (shown++ < style.ranked_views) {
@@ -103,7 +115,8 @@ LayerContent rankedViewsLayer(const SceneFrame& frame, const LayerStyle& style) 
   }
   if (!barred.pieces.empty()) {
     content.props.push_back(lineActor(barred, palette::kUnreachable, 1.2 * style.line_scale));
-    content.legend.push_back({Mark::Cross, palette::kUnreachable, 1.0, "better, but cannot be reached"});
+    content.legend.push_back(
+        {Mark::Cross, palette::kUnreachable, 1.0, "better, but cannot be reached: " + reasonsText(refused)});
   }
   return content;
 }
