@@ -147,13 +147,13 @@ TEST(B1, WithoutBothMethodsNothingIsJudged) {
 
 TEST(B1, TablesHoldThePaperBesideOurs) {
   const Runs runs = passingRuns();
-  EXPECT_THAT(tableText(phaseTable(runs)), HasSubstr("288.5 +- 39.0"));
+  EXPECT_THAT(tableText(phaseTable(runs, Series::Core)), HasSubstr("288.5 +- 39.0"));
   EXPECT_THAT(tableText(tickTable(runs)), HasSubstr("y y y y x"));
   const std::string segments = tableText(segmentTable(runs));
   EXPECT_THAT(segments, HasSubstr("jug A"));
   EXPECT_EQ(segments.find("first non-object"), segments.rfind("first non-object")) << "marked once";
   EXPECT_EQ(nbvTable(runs).rows.size(), runs.size() * kNbvs);
-  for (const Table& table : {nbvTable(runs), phaseTable(runs), tickTable(runs), segmentTable(runs)})
+  for (const Table& table : {nbvTable(runs), phaseTable(runs, Series::Core), tickTable(runs), segmentTable(runs)})
     for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size()) << table.name;
   Runs with_others = runs;
   with_others[0].run.series = Series::Exact;

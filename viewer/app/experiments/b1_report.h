@@ -35,7 +35,7 @@ Table nbvTable(const Runs& runs);
 /// had not seen the settings; without those that have no runs.
 std::vector<Table> runTables(const Runs& runs);
 /// Tables 1 and 3 of the paper beside ours, of the core series.
-Table phaseTable(const Runs& runs);
+Table phaseTable(const Runs& runs, Series series);
 Table tickTable(const Runs& runs);
 /// Table 2: segments of the third NBV of the first proposed run on `tabletop`; empty if there is none.
 Table segmentTable(const Runs& runs);

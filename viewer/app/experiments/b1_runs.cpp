@@ -6,13 +6,17 @@
 #include <map>
 
 #include "core/exploration/explorer.h"
+#include "hardware/simulated_arm.h"
 #include "hardware/simulated_depth_camera.h"
 #include "hardware/simulated_robot.h"
+#include "io/robot_file.h"
 #include "io/scene_truth.h"
 #include "viewer/app/experiments/b1_segments.h"
 
 namespace vantage::experiments {
 namespace {
+
+constexpr const char* kArm = "smart_six";  // of the paper
 
 double orZero(const std::optional<double>& seconds) {
   return seconds.value_or(0.0);
@@ -90,7 +94,7 @@ void fill(ExplorationRun& result) {
 }  // namespace
 
 std::string_view toString(Series series) {
-  constexpr std::string_view kNames[] = {"core", "open", "filtered", "exact", "unseen"};
+  constexpr std::string_view kNames[] = {"core", "open", "filtered", "exact", "unseen", "arm"};
   return kNames[static_cast<int>(series)];
 }
 
@@ -152,12 +156,19 @@ ExplorationRun runExploration(const RunOf& run, const std::function<void(Setting
   const Settings settings = settingsOf(run, scene, tune);
   const ExplorationConfig& config = settings.exploration;
   SimulatedDepthCamera camera(scene, {settings.camera, settings.sensor, config.seed});
-  FreeFlyer robot(settings.free_flyer, initialScanPoses(config.scan).back());
+  FreeFlyer flyer(settings.free_flyer, initialScanPoses(config.scan).back());
+  std::unique_ptr<SimulatedArm> arm;
+  std::optional<EyeInHandCamera> hand;
+  if (run.series == Series::Arm) {
+    arm = startedArm(loadRobot(kArm), settings);
+    hand.emplace(camera, *arm);
+  }
   const SceneTruth truth(scene);
   ExplorationRun result;
   result.run = run;
   Recorder recorder(result, scene, truth);
-  Explorer explorer(config, camera, robot, &truth);
+  Explorer explorer(config, hand ? static_cast<DepthCamera&>(*hand) : camera,
+                    arm ? static_cast<Robot&>(*arm) : flyer, &truth);
   explorer.addObserver([&](const std::shared_ptr<const StepRecord>& record) { recorder.watch(*record); });
   result.stop_reason = explorer.run(control).stop_reason;
   control.check();

@@ -23,8 +23,9 @@ enum class Series {
   Filtered,  ///< a sensor with faults and the filters behind it
   Exact,     ///< no noise
   Unseen,    ///< as the core, on scenes by somebody who had not seen the defaults
+  Arm,       ///< as the core, the camera in the hand of the paper's arm
 };
-/// `core`, `open`, `filtered`, `exact`, `unseen`.
+/// `core`, `open`, `filtered`, `exact`, `unseen`, `arm`.
 std::string_view toString(Series series);
 
 /// One run of B1.

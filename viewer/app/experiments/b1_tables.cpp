@@ -117,6 +117,7 @@ std::vector<Table> runTables(const Runs& runs) {
                 "(filtered), "
                 "no noise (exact)",
                 {Series::Open, Series::Filtered, Series::Exact}},
+               {"b1_arm", "B1: runs with a simulated Comau SMART SiX", {Series::Arm}},
                {"b1_unseen", "B1: scenes by somebody who had not seen the settings", {Series::Unseen}}};
   std::vector<Table> tables;
   for (const auto& part : parts) {
@@ -135,12 +136,15 @@ std::vector<Table> runTables(const Runs& runs) {
   return tables;
 }
 
-Table phaseTable(const Runs& runs) {
-  const auto proposed = select(runs, Series::Core, true), standard = select(runs, Series::Core, false);
-  Table table{"b1_table1",
-              "B1, Table 1: seconds of a run of five NBVs, mean +- standard deviation over all runs",
+Table phaseTable(const Runs& runs, Series series) {
+  const auto proposed = select(runs, series, true), standard = select(runs, series, false);
+  const bool arm = series == Series::Arm;
+  Table table{arm ? "b1_table1_arm" : "b1_table1",
+              std::string("B1, Table 1") + (arm ? " with the arm" : "") +
+                  ": seconds of a run of five NBVs, mean +- standard deviation over all runs",
               {"phase", "paper proposed", "paper standard", "proposed", "standard", "standard / proposed"},
               {}};
+  if (arm && proposed.empty() && standard.empty()) return table;
   for (const Phase& phase : kPhases) {
     const auto seconds = [&](const ExplorationRun& run) { return phase.seconds(run.seconds()); };
     const Spread p = spreadOver(proposed, seconds), s = spreadOver(standard, seconds);
