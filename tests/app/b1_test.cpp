@@ -153,7 +153,8 @@ TEST(B1, TablesHoldThePaperBesideOurs) {
   EXPECT_THAT(segments, HasSubstr("jug A"));
   EXPECT_EQ(segments.find("first non-object"), segments.rfind("first non-object")) << "marked once";
   EXPECT_EQ(nbvTable(runs).rows.size(), runs.size() * kNbvs);
-  for (const Table& table : {nbvTable(runs), phaseTable(runs, Series::Core), tickTable(runs), segmentTable(runs)})
+  for (const Table& table :
+       {nbvTable(runs), phaseTable(runs, Series::Core), tickTable(runs), segmentTable(runs)})
     for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size()) << table.name;
   Runs with_others = runs;
   with_others[0].run.series = Series::Exact;

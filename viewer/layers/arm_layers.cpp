@@ -157,7 +157,8 @@ LayerContent armMotionLayer(const SceneFrame& frame, const LayerStyle&) {
     const double time_s = trajectory->duration_s() * ghost / (kGhosts + 1);
     const auto later = std::ranges::lower_bound(trajectory->time_s, time_s);
     const auto point = static_cast<std::size_t>(later - trajectory->time_s.begin());
-    content.props.push_back(armActor(meshOf(arm, trajectory->positions[point], false), palette::kArmGhost, 0.12));
+    content.props.push_back(
+        armActor(meshOf(arm, trajectory->positions[point], false), palette::kArmGhost, 0.12));
   }
   const JointVector& goal = trajectory->positions.back();
   const BodyMesh end = meshOf(arm, goal, false);

@@ -22,10 +22,10 @@ std::vector<RunOf> plannedRuns(const ExperimentOptions& options) {
     return runs;
   }
   add(Series::Core, options.seeds.value_or(5), kScenes);
+  add(Series::Arm, options.seeds.value_or(1), kScenes);
   for (const Series series : {Series::Open, Series::Filtered, Series::Exact})
     add(series, options.seeds.value_or(1), kScenes);
   add(Series::Unseen, options.seeds.value_or(1), {"unseen_kitchen", "unseen_workshop"});
-  add(Series::Arm, options.seeds.value_or(1), kScenes);
   return runs;
 }
 
