@@ -61,8 +61,9 @@ void SimulatedArm::readEncoders() {
 
 void SimulatedArm::adjust(const Pose& T_world_camera) {
   const std::vector<JointVector> goals = planner_->solutions(T_world_camera, read_joints_);
-  if (goals.empty() || !planner_->freeMotion(read_joints_, goals.front())) return;
-  follow(planner_->timed({read_joints_, goals.front()}), {});
+  if (goals.empty()) return;
+  const JointTrajectory motion = planner_->timed({read_joints_, goals.front()});
+  if (planner_->refusal(motion, read_joints_).empty()) follow(motion, {});
 }
 
 MotionPlan SimulatedArm::plan(const Pose& T_world_camera, std::uint64_t seed) {

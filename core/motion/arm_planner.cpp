@@ -141,7 +141,13 @@ MotionPlan ArmPlanner::plan(const RobotState& from, const Pose& T_world_camera, 
   plan.straight = path.straight;
   plan.iterations = path.iterations;
   if (!path.found()) return plan;
-  plan.trajectory = std::make_shared<const JointTrajectory>(timed(path.configurations));
+  JointTrajectory trajectory = timed(path.configurations);
+  // Its points lie elsewhere than those that were looked at on the way here: it may graze something there.
+  if (!refusal(trajectory, from.joints).empty()) {
+    plan.verdict = Reachability::NoPath;
+    return plan;
+  }
+  plan.trajectory = std::make_shared<const JointTrajectory>(std::move(trajectory));
   setWaypoints(*this, T_world_camera, plan);
   return plan;
 }
@@ -158,20 +164,25 @@ JointTrajectory ArmPlanner::timed(const std::vector<JointVector>& corners) const
   return timedTrajectory(model(), corners, config_.timing);
 }
 
-void ArmPlanner::requireSafe(const JointTrajectory& trajectory, const JointVector& arm_is_at) const {
-  if (const std::string violation = limitViolation(model(), trajectory); !violation.empty())
-    throw ArmRefusal("the motion is not sent: " + violation);
+std::string ArmPlanner::refusal(const JointTrajectory& trajectory, const JointVector& arm_is_at) const {
+  if (std::string violation = limitViolation(model(), trajectory); !violation.empty()) return violation;
   if (const double away = (trajectory.positions.front() - arm_is_at).cwiseAbs().maxCoeff();
       !(away <= kStart_rad))
-    throw ArmRefusal(
-        fmt::format("the motion is not sent: a joint is {:.3f} rad away from where it begins", away));
+    return fmt::format("a joint is {:.3f} rad away from where it begins", away);
   for (std::size_t p = 0; p < trajectory.size(); ++p) {
     const JointVector& q = trajectory.positions[p];
     const JointVector& before = trajectory.positions[p > 0 ? p - 1 : 0];
     if (freeMotion(before, q)) continue;
-    throw ArmRefusal(fmt::format("the motion is not sent: at {:.2f} s the {}", trajectory.time_s[p],
-                                 contactText(contact(contact(q).free() ? before : q))));
+    const ArmContact found = contact(q);
+    return fmt::format("{} {:.2f} s {}", found.free() ? "just before" : "at", trajectory.time_s[p],
+                       found.free() ? "the arm would touch something" : contactText(found));
   }
+  return {};
+}
+
+void ArmPlanner::requireSafe(const JointTrajectory& trajectory, const JointVector& arm_is_at) const {
+  if (const std::string reason = refusal(trajectory, arm_is_at); !reason.empty())
+    throw ArmRefusal("the motion is not sent: " + reason);
 }
 
 }  // namespace vantage

@@ -75,8 +75,10 @@ class ArmPlanner : public MotionPlanner {
   /// A straight motion from configuration to configuration as it is sent; nothing is checked.
   JointTrajectory timed(const std::vector<JointVector>& corners) const;
 
-  /// Looks at a trajectory once more as it is sent: begins where the arm is, stays within joint and velocity
-  /// limits, touches nothing, looked at as densely as when it was planned. \throws ArmRefusal
+  /// Why a trajectory must not be sent, empty if it may: it begins where the arm is, stays within joint and
+  /// velocity limits, and touches nothing at its points and between them, looked at as densely as paths are.
+  std::string refusal(const JointTrajectory& trajectory, const JointVector& arm_is_at) const;
+  /// \throws ArmRefusal with that reason
   void requireSafe(const JointTrajectory& trajectory, const JointVector& arm_is_at) const;
 
  private:

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "io/robot_file.h"
 #include "io/scene_file.h"
 #include "io/scene_truth.h"
@@ -13,7 +15,7 @@ namespace {
 using test::freeWorld;
 
 struct Planner : ArmPlanner {
-  Planner() : ArmPlanner(loadRobot("smart_six"), ArmConfig()) {
+  explicit Planner(const ArmConfig& config = {}) : ArmPlanner(loadRobot("smart_six"), config) {
     start.joints = JointVector(6);
     start.joints << 0.0, -0.3, -1.9, 0.0, 0.9, 0.0;
     start.T_world_camera = cameraPose(start.joints);
@@ -75,6 +77,31 @@ TEST(ArmPlanner, TakesAMapOfAnotherGrid) {
   finer.size *= 2;
   planner.observe(StateGrid(finer));
   EXPECT_EQ(planner.check(kView), Reachability::InCollision);
+}
+
+/// A motion that is planned is one that may be sent, also where the arm passes close to something.
+TEST(ArmPlanner, EveryPlannedMotionMayBeSent) {
+  ArmConfig coarse;  // much lies between the points that are looked at
+  coarse.path.check_step_m = 0.08;
+  Planner planner(coarse);
+  StateGrid states = freeWorld();
+  for (const double x : {-0.5, 0.0, 0.5})
+    test::fill(states, Box(Eigen::Vector3d(x - 0.1, -0.2, 0.0), Eigen::Vector3d(x + 0.1, 0.1, 0.5)),
+               VoxelState::Unknown);
+  planner.observe(states);
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> across(-0.7, 0.7), along(-0.5, 0.5), up(0.1, 0.9);
+  int sent = 0;
+  RobotState at = planner.start;
+  for (std::uint64_t n = 0; n < 300; ++n) {
+    const double x = across(random), y = along(random), z = up(random);
+    const MotionPlan plan = planner.plan(at, lookAt({x, y, z}, {0.5 * x, 0.2, 0.1}), n);
+    if (plan.verdict != Reachability::Reachable) continue;
+    ++sent;
+    EXPECT_EQ(planner.refusal(*plan.trajectory, at.joints), "") << n;
+    at.joints = plan.trajectory->positions.back();
+  }
+  EXPECT_GT(sent, 30);
 }
 
 TEST(ArmPlanner, RefusesToSendWhatIsNotSafe) {
