@@ -245,6 +245,24 @@ TEST_F(ExploreByArm, APictureShowsItAndItsMotion) {
   EXPECT_NE(bytes("arm.png", "arm"), bytes("views.png", "views"));
 }
 
+/// What the octree's planners take for free without having seen it is none for an arm, nor could the contour
+/// planner lead it out of there again.
+TEST(ExploreRobots, AnArmStaysInSeenSpaceWithEveryPlanner) {
+  const TemporaryFolder folder;
+  const ProcessResult run =
+      vantage({"explore", "tabletop", "--robot", "smart_six", "--planner", "hierarchical,contour", "--steps",
+               "2", "-o", folder / "x.vantage", "--json", folder / "x.json"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  for (const Json& step : Json::parse(readFile(folder / "x.json"))["steps"])
+    EXPECT_EQ(step["status"], "view");
+  const ProcessResult vouched =
+      vantage({"explore", "tabletop", "--robot", "smart_six", "--planner", "hierarchical", "--steps", "1",
+               "-o", folder / "y.vantage", "--set", "octree.outside=free"});
+  EXPECT_EQ(vouched.code, 0);
+  EXPECT_NE(vouched.err.find("never seen"), std::string::npos) << vouched.err;
+}
+
 TEST(ExploreRobots, RefusesWhatCannotMove) {
   const TemporaryFolder folder;
   const auto explore = [&](std::vector<std::string> words) {

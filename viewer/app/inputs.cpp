@@ -50,12 +50,19 @@ FeasibleViews feasibleViews(const Settings& settings) {
   return views;
 }
 
+/// The octree's planners take all but the object's box for free (D-A10), which no arm may.
+void takeNothingForFree(Settings& settings) {
+  applyAssignment(settings, "octree.outside=unknown", "--robot");
+}
+
 /// Puts the camera into the hand of an arm.
 void giveArm(ExplorationInput& input, const std::string& robot) {
   const Settings& s = input.settings;
   if (!s.exploration.enforce_reachability)
     throw InputError("exploration.enforce_reachability = false",
                      "an arm can't go where it can't; leave it on, or explore with --robot free");
+  if (s.exploration.needsOctree() && s.exploration.octree.outside == VoxelState::Free)
+    warn("octree.outside = \"free\": the arm moves through all that was never seen outside the object's box");
   const RobotModel model = loadRobot(robot);
   try {
     auto arm = startedArm(model, s);
@@ -78,6 +85,7 @@ ExplorationInput openScene(const GlobalOptions& global, const std::string& name,
   Settings& s = input.settings;
   applyUserConfig(s);
   applyScene(s, scene);
+  if (robot != kFreeFlyer) takeNothingForFree(s);
   applyCommandLine(s, global);
   s.validate();
   input.camera = std::make_unique<SimulatedDepthCamera>(
