@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,12 @@
 #include "core/run_control.h"
 
 namespace vantage {
+
+/// A device that worked stopped working: which one, and what it did last. Nothing moves any more.
+class DeviceLost : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// One depth frame and where it was taken.
 struct DepthFrame {
@@ -33,6 +40,7 @@ class DepthCamera {
   virtual const PinholeCamera& model() const = 0;
   /// One frame from the given pose, or the nearest that the device can serve; empty if it has none left.
   /// \param index counts the frames of this run: same run seed and index, same noise.
+  /// \throws DeviceLost
   virtual std::optional<DepthFrame> capture(const Pose& T_world_camera, std::uint64_t index) = 0;
   /// Poses at which a replayed device can start (recorded order); empty for devices that can go anywhere.
   virtual std::vector<Pose> recordedPoses() const { return {}; }
@@ -57,7 +65,7 @@ class Robot {
   virtual MotionPlan plan(const Pose& T_world_camera, std::uint64_t seed) = 0;
   /// Carries it out; returns the duration in seconds (simulated robots: modelled, not waited for). Where the
   /// camera is afterwards, state() tells. \throws Cancelled if a stop was requested on the way: the robot
-  /// then stands within one control period; std::runtime_error if it can't or must not move.
+  /// then stands within one control period; DeviceLost; std::runtime_error if it can't or must not move.
   virtual double execute(const MotionPlan& plan, const RunControl& control) = 0;
 };
 
