@@ -4,49 +4,35 @@
 #include <random>
 #include <vector>
 
-#include "core/exploration/ports.h"
-#include "core/motion/arm_planner.h"
+#include "hardware/arm.h"
 #include "io/config_file.h"
 
 namespace vantage {
 
 /// Arm that carries out joint trajectories point by point. Time is modelled, not waited for. What it knows of
 /// itself comes from its encoders and the nominal mount of the camera; where it truly is may differ.
-class SimulatedArm : public Robot {
+class SimulatedArm : public Arm {
  public:
-  /// \param planner has seen a map, at least one in which all is unknown
-  /// \param start configurations of the initial scan, not empty; the arm stands at the first one (see
-  /// armStart()). \throws std::invalid_argument as ArmErrors::validate().
+  /// It stands at the first configuration of the start. \throws std::invalid_argument as Arm and
+  /// ArmErrors::validate().
   SimulatedArm(std::unique_ptr<ArmPlanner> planner, std::vector<JointVector> start,
                const ArmErrors& errors = {});
 
-  std::string name() const override { return planner_->model().name; }
-  /// As read from the encoders when the arm last came to rest.
-  RobotState state() const override;
-  std::vector<Pose> startPoses() const override;
-  /// Goes straight to the nearest configuration for the pose if nothing is in the way.
-  void adjust(const Pose& T_world_camera) override;
-  void observe(const StateGrid& states) override { planner_->observe(states); }
-  MotionPlan plan(const Pose& T_world_camera, std::uint64_t seed) override;
-  /// Checks the trajectory once more and sends it, a point each control period. \throws ArmRefusal, also for
-  /// a plan without trajectory; Cancelled as Robot::execute().
-  double execute(const MotionPlan& plan, const RunControl& control) override;
-
-  const ArmPlanner& planner() const { return *planner_; }
   const JointVector& trueJoints() const { return true_joints_; }
   const Pose& mountError() const { return mount_error_; }
-  Pose trueCameraPose() const { return planner_->cameraPose(true_joints_) * mount_error_; }
+  Pose trueCameraPose() const { return planner().cameraPose(true_joints_) * mount_error_; }
 
  protected:
+  /// As read when the arm last came to rest.
+  JointVector joints() const override { return read_joints_; }
+  /// A point each control period.
+  void follow(const JointTrajectory& trajectory, const RunControl& control) override;
   /// Takes one point of a trajectory; the place where another arm would differ.
   virtual void moveTo(const JointVector& q) { true_joints_ = q; }
 
  private:
-  void follow(const JointTrajectory& trajectory, const RunControl& control);
   void readEncoders();
 
-  std::unique_ptr<ArmPlanner> planner_;
-  std::vector<JointVector> start_;
   ArmErrors errors_;
   Pose mount_error_ = Pose::Identity();
   JointVector true_joints_, read_joints_;
@@ -61,18 +47,17 @@ std::unique_ptr<ArmPlanner> startingPlanner(const RobotModel& model, const Setti
 /// std::invalid_argument as startingPlanner()
 std::unique_ptr<SimulatedArm> startedArm(const RobotModel& model, const Settings& settings);
 
-/// Simulated camera in the hand of a simulated arm. It looks from where the hand truly is, sees the arm's own
-/// bodies, removes them by what the arm knows of itself, and delivers frames with the pose that the arm
-/// believes.
-class EyeInHandCamera : public DepthCamera {
+/// Simulated camera in the hand of a simulated arm. It looks from where the hand truly is, and sees the arm's
+/// own bodies where they truly are.
+class SimulatedHandCamera : public EyeInHandCamera {
  public:
   /// Refers to both.
-  EyeInHandCamera(DepthCamera& camera, const SimulatedArm& arm) : camera_(camera), arm_(arm) {}
-  const PinholeCamera& model() const override { return camera_.model(); }
-  std::optional<DepthFrame> capture(const Pose& T_world_camera, std::uint64_t index) override;
+  SimulatedHandCamera(DepthCamera& scene, const SimulatedArm& arm) : EyeInHandCamera(scene, arm), arm_(arm) {}
+
+ protected:
+  std::optional<DepthFrame> look(const Pose& T_world_camera, std::uint64_t index) override;
 
  private:
-  DepthCamera& camera_;
   const SimulatedArm& arm_;
 };
 

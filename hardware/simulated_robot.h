@@ -14,7 +14,7 @@ class FreeFlyer : public Robot {
 
   std::string name() const override { return "free"; }
   RobotState state() const override { return {T_world_camera_, {}}; }
-  void adjust(const Pose& T_world_camera) override { T_world_camera_ = T_world_camera; }
+  void adjust(const Pose& T_world_camera, const RunControl&) override { T_world_camera_ = T_world_camera; }
   void observe(const StateGrid& states) override { planner_.observe(states); }
   /// Before the first observe() nothing is known to be free: the verdict is OutOfReach.
   MotionPlan plan(const Pose& T_world_camera, std::uint64_t seed) override;

@@ -107,7 +107,7 @@ bool Explorer::State::scanInto(StepRecord& record, const std::vector<Pose>& pose
     control.check();
     control.report("sense", p, poses.size());
     const Stopwatch sensing;
-    robot.adjust(poses[p]);
+    robot.adjust(poses[p], control);
     std::optional<DepthFrame> frame = camera.capture(robot.state().T_world_camera, frames_taken);
     sense_s += sensing.seconds();
     if (!frame) break;
@@ -126,7 +126,7 @@ bool Explorer::State::scanInto(StepRecord& record, const std::vector<Pose>& pose
     last = std::move(*frame);
   }
   if (record.scan.empty()) return false;
-  if (isReplay()) robot.adjust(last.T_world_camera);  // the frame that served was taken there
+  if (isReplay()) robot.adjust(last.T_world_camera, control);  // the frame that served was taken there
   if (!joints.empty()) record.joints = share(std::move(joints));
   record.depth = share(std::move(last));
   if (config.filter.any()) record.filtered = share(std::move(filtered));

@@ -58,7 +58,8 @@ class Robot {
   /// Camera poses of the initial scan that the robot brings along; empty for robots that start anywhere.
   virtual std::vector<Pose> startPoses() const { return {}; }
   /// Brings the camera to a pose of a scan, near where it is. A robot that can't stays where it is.
-  virtual void adjust(const Pose& T_world_camera) = 0;
+  /// \throws as execute()
+  virtual void adjust(const Pose& T_world_camera, const RunControl& control) = 0;
   /// Takes over the current map; called once a step, before plan().
   virtual void observe(const StateGrid& states) = 0;
   /// A motion to a camera pose, or why there is none.

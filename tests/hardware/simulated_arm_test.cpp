@@ -55,7 +55,7 @@ Settings quickSettings(const std::vector<std::string>& more = {}) {
 SimulatedRun exploreByArm(const Settings& settings, SimulatedArm& arm, int threads = 2) {
   SimulatedDepthCamera camera(loadScene("tabletop"),
                               {settings.camera, settings.sensor, settings.exploration.seed});
-  EyeInHandCamera eye(camera, arm);
+  SimulatedHandCamera eye(camera, arm);
   return exploreWith("tabletop", settings, eye, arm, threads);
 }
 

@@ -68,7 +68,7 @@ void giveArm(ExplorationInput& input, const std::string& robot) {
     auto arm = startedArm(model, s);
     input.arm = ArmHeader{model, arm->planner().T_world_base(), s.arm.clear_boxes};
     input.scene_camera = std::move(input.camera);
-    input.camera = std::make_unique<EyeInHandCamera>(*input.scene_camera, *arm);
+    input.camera = std::make_unique<SimulatedHandCamera>(*input.scene_camera, *arm);
     input.robot = std::move(arm);
   } catch (const ArmRefusal& refusal) {
     throw InputError("--robot " + robot, refusal.what());

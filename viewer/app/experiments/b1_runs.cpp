@@ -158,7 +158,7 @@ ExplorationRun runExploration(const RunOf& run, const std::function<void(Setting
   SimulatedDepthCamera camera(scene, {settings.camera, settings.sensor, config.seed});
   FreeFlyer flyer(settings.free_flyer, initialScanPoses(config.scan).back());
   std::unique_ptr<SimulatedArm> arm;
-  std::optional<EyeInHandCamera> hand;
+  std::optional<SimulatedHandCamera> hand;
   if (run.series == Series::Arm) {
     arm = startedArm(loadRobot(kArm), settings);
     hand.emplace(camera, *arm);
