@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/motion/body_image.h"
+#include "core/volume/occupancy_octree.h"
 
 namespace vantage {
 
@@ -40,6 +41,16 @@ double Arm::execute(const MotionPlan& plan, const RunControl& control) {
   planner_->requireSafe(*plan.trajectory, joints());
   follow(*plan.trajectory, control);
   return plan.trajectory->duration_s();
+}
+
+std::unique_ptr<ArmPlanner> startingPlanner(const RobotModel& model, const Settings& settings) {
+  const ExplorationConfig& config = settings.exploration;
+  auto planner = std::make_unique<ArmPlanner>(model, settings.armConfig());
+  planner->observe(
+      StateGrid(usesOctree(config.plannerOf(1))
+                    ? OccupancyOctree::gridAround(config.volume.bounds(), config.octree.voxel_size_m)
+                    : config.volume));
+  return planner;
 }
 
 std::optional<DepthFrame> EyeInHandCamera::capture(const Pose& T_world_camera, std::uint64_t index) {

@@ -5,6 +5,7 @@
 
 #include "core/exploration/ports.h"
 #include "core/motion/arm_planner.h"
+#include "io/config_file.h"
 
 namespace vantage {
 
@@ -42,6 +43,10 @@ class Arm : public Robot {
   std::unique_ptr<ArmPlanner> planner_;
   std::vector<JointVector> start_;
 };
+
+/// Planner of an arm in the map that a run with these settings begins with, in which all is unknown. \throws
+/// std::invalid_argument for an arm that is too long for the map's cells.
+std::unique_ptr<ArmPlanner> startingPlanner(const RobotModel& model, const Settings& settings);
 
 /// Camera in the hand of an arm: removes the arm's own bodies from the images, and delivers them with the
 /// pose that the arm believes.

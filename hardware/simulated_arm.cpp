@@ -5,7 +5,6 @@
 
 #include "core/exploration/arm_start.h"
 #include "core/motion/body_image.h"
-#include "core/volume/occupancy_octree.h"
 
 namespace vantage {
 namespace {
@@ -55,16 +54,6 @@ void SimulatedArm::follow(const JointTrajectory& trajectory, const RunControl& c
   }
   readEncoders();
   control.check();
-}
-
-std::unique_ptr<ArmPlanner> startingPlanner(const RobotModel& model, const Settings& settings) {
-  const ExplorationConfig& config = settings.exploration;
-  auto planner = std::make_unique<ArmPlanner>(model, settings.armConfig());
-  planner->observe(
-      StateGrid(usesOctree(config.plannerOf(1))
-                    ? OccupancyOctree::gridAround(config.volume.bounds(), config.octree.voxel_size_m)
-                    : config.volume));
-  return planner;
 }
 
 std::unique_ptr<SimulatedArm> startedArm(const RobotModel& model, const Settings& settings) {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "hardware/arm.h"
-#include "io/config_file.h"
 
 namespace vantage {
 
@@ -38,10 +37,6 @@ class SimulatedArm : public Arm {
   JointVector true_joints_, read_joints_;
   std::mt19937_64 random_;
 };
-
-/// Planner of an arm in the map that a run with these settings begins with, in which all is unknown. \throws
-/// std::invalid_argument for an arm that is too long for the map's cells.
-std::unique_ptr<ArmPlanner> startingPlanner(const RobotModel& model, const Settings& settings);
 
 /// Arm at the start of its initial scan, with the errors of the settings. \throws ArmRefusal as armStart(),
 /// std::invalid_argument as startingPlanner()
