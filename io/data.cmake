@@ -21,6 +21,7 @@ vantage_library(vantage_io_data
     dataset_layouts.cpp
     dataset_settings.cpp
     dataset_toml.cpp
+    dataset_writer.cpp
     depth_png.cpp
     mesh_ply.cpp
     octree_file.cpp

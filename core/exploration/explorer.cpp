@@ -319,6 +319,10 @@ ExplorationResult Explorer::run(const RunControl& control) {
   } catch (const Cancelled&) {
     result.stop_reason = "cancelled";
     return result;
+  } catch (const DeviceLost& lost) {
+    result.stop_reason = "device lost";
+    result.lost = lost.what();
+    return result;
   }
 }
 

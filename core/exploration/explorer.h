@@ -63,8 +63,9 @@ struct ExplorationConfig {
 };
 
 struct ExplorationResult {
-  std::string stop_reason;  ///< "steps done", "finished", "no frames left" or "cancelled"
+  std::string stop_reason;  ///< "steps done", "finished", "no frames left", "cancelled" or "device lost"
   int steps = 0;            ///< records completed
+  std::string lost;         ///< of "device lost": which device, and what it did last
 };
 
 /// The exploration loop. Owns the maps; publishes a growing record after every stage.
@@ -77,7 +78,7 @@ class Explorer {
   void addObserver(StepObserver observer);
 
   /// Runs all steps and the closing scan. On cancellation the records published as Stage::Done stay valid and
-  /// the result says "cancelled".
+  /// the result says "cancelled"; when a device is lost, "device lost".
   ExplorationResult run(const RunControl& control);
 
   const WorldModel& world() const;

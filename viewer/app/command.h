@@ -42,6 +42,7 @@ void addPath(CLI::App& app, const GlobalOptions& global, Action& action);
 void addCompare(CLI::App& app, const GlobalOptions& global, Action& action);
 void addScenes(CLI::App& app, const GlobalOptions& global, Action& action);
 void addRobots(CLI::App& app, const GlobalOptions& global, Action& action);
+void addDevices(CLI::App& app, const GlobalOptions& global, Action& action);
 void addConfig(CLI::App& app, const GlobalOptions& global, Action& action);
 void addInfo(CLI::App& app, const GlobalOptions& global, Action& action);
 void addReproduce(CLI::App& app, const GlobalOptions& global, Action& action);

@@ -19,9 +19,8 @@
 namespace vantage::app {
 namespace {
 
-struct ExploreOptions {
-  std::string input, run, planner, robot = "free", snapshots;
-  std::optional<int> steps;
+struct ExploreOptions : ExplorationRequest {
+  std::string run, snapshots;
 };
 
 RunHeader makeHeader(const GlobalOptions& global, const ExploreOptions& options,
@@ -119,6 +118,7 @@ void checkOutputs(const GlobalOptions& global, const ExploreOptions& options) {
   requireDistinctFiles({{"input", options.input},
                         {"-o", options.run},
                         {"--json", global.json},
+                        {"--record", options.record},
                         {"--snapshots", options.snapshots}});
   if (!global.json.empty() && global.json != "-") requireCreatable(global.json);
   if (options.snapshots.empty()) return;
@@ -130,10 +130,18 @@ void checkOutputs(const GlobalOptions& global, const ExploreOptions& options) {
   const EglContext probe;
 }
 
+/// What a live session showed cannot be had again.
+void recordLive(ExploreOptions& options) {
+  if (!isDevice(options.input)) return;
+  if (options.run.empty()) options.run = "live.vantage";
+  if (options.record.empty())
+    options.record = std::filesystem::path(options.run).replace_extension().string() + "-frames";
+}
+
 int explore(const GlobalOptions& global, ExploreOptions options) {
+  recordLive(options);
   checkOutputs(global, options);
-  ExplorationInput input =
-      openExplorationInput(global, options.input, options.planner, options.steps, options.robot);
+  ExplorationInput input = openExplorationInput(global, options);
   if (options.run.empty()) options.run = input.name + ".vantage";
   checkMaps(input.settings.exploration, input.settings);
   Console console(global);
@@ -162,7 +170,11 @@ int explore(const GlobalOptions& global, ExploreOptions options) {
   console.clear();
   say(global, fmt::format("{} after {}; recorded in {}", result.stop_reason, counted(result.steps, "step"),
                           options.run));
+  if (!options.record.empty()) say(global, fmt::format("frames recorded in {}", options.record));
   if (!global.json.empty()) json.write(global.json);
+  if (!result.lost.empty())
+    throw std::runtime_error(
+        fmt::format("{}; {} kept in {}", result.lost, counted(result.steps, "finished step"), options.run));
   if (console.interrupted())
     throw Interrupted(
         fmt::format("{}: interrupted; {} kept", options.run, counted(result.steps, "finished step")));
@@ -178,9 +190,9 @@ void addExplore(CLI::App& app, const GlobalOptions& global, Action& action) {
       app.add_subcommand("explore", "Explore a scene or replay a data set: the whole loop, recorded");
   command
       ->add_option("input", options->input,
-                   "Embedded scene, scene TOML, or folder of a recorded RGB-D sequence")
+                   "Embedded scene, scene TOML, folder of a recorded RGB-D sequence, or a live camera")
       ->required()
-      ->type_name("SCENE|DATASET");
+      ->type_name("SCENE|DATASET|CAMERA");
   command->add_option("-o,--output", options->run, "Run file to write (default: NAME.vantage)")
       ->type_name("RUN");
   command
@@ -194,6 +206,16 @@ void addExplore(CLI::App& app, const GlobalOptions& global, Action& action) {
       ->add_option("--robot", options->robot,
                    "What carries the camera: free, an arm of 'vantage robots', or a URDF file")
       ->type_name("free|NAME|FILE.urdf");
+  command
+      ->add_option("--controller", options->controller, "Live arms: what moves the arm, of 'vantage devices'")
+      ->type_name("DEVICE");
+  command->add_option("--joint-states", options->joint_states, "Live arms: topic of the joints' positions")
+      ->capture_default_str()
+      ->type_name("TOPIC");
+  command
+      ->add_option("--record", options->record,
+                   "New folder for all frames as a data set, depth rounded to millimetres (live: RUN-frames)")
+      ->type_name("DIR");
   command->add_option("--snapshots", options->snapshots, "Folder for pictures of every step")
       ->type_name("DIR");
   command->footer("Example: vantage explore tabletop -o tabletop.vantage --snapshots pictures");

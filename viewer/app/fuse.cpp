@@ -111,16 +111,21 @@ void checkOptions(const GlobalOptions& global, const FuseOptions& options) {
   if (!options.cloud.empty()) refuse("--cloud");
 }
 
+/// A frame, and the ball around its camera that is taken as empty: scan.clear_radius_m during the initial
+/// scan, none later (D-B28).
+using InsertFrame = std::function<void(const DepthImage&, const Pose&, double bubble_m)>;
+
 /// Hands the frames asked for to `insert`. \return how many
 std::size_t eachFrame(const GlobalOptions& global, const FuseOptions& options, const Dataset& dataset,
-                      const std::function<void(const DepthImage&, const Pose&)>& insert) {
+                      const ScanConfig& scan, const InsertFrame& insert) {
   const auto [first, last] = frameRange(options.frames, dataset.frames.size());
   Console console(global);
   const RunControl control = console.control();
   for (std::size_t n = first; n < last; ++n) {
     if (console.interrupted()) throw Interrupted(options.output + ": interrupted; nothing was written");
     control.report("fuse", n - first, last - first);
-    insert(loadDepth(dataset, n), dataset.frames[n].T_world_camera);
+    const bool initial = n < static_cast<std::size_t>(scan.initial_frames);
+    insert(loadDepth(dataset, n), dataset.frames[n].T_world_camera, initial ? scan.clear_radius_m : 0.0);
   }
   console.clear();
   return last - first;
@@ -154,9 +159,11 @@ void fuseVolume(const GlobalOptions& global, const FuseOptions& options, const D
   TsdfVolume volume(geometry);
   std::uint64_t updated = 0;
   const std::size_t frames =
-      eachFrame(global, options, dataset, [&](const DepthImage& depth, const Pose& pose) {
-        updated += fuseDepth(volume, depth, settings.camera, pose, fusion).voxels_updated;
-      });
+      eachFrame(global, options, dataset, settings.exploration.scan,
+                [&](const DepthImage& depth, const Pose& pose, double bubble_m) {
+                  if (bubble_m > 0.0) clearSphere(volume, pose.translation(), bubble_m);
+                  updated += fuseDepth(volume, depth, settings.camera, pose, fusion).voxels_updated;
+                });
   writeVolume(options.output, volume);
   if (!options.mesh.empty() || !options.cloud.empty()) {
     const SurfaceCloud surface =
@@ -182,12 +189,14 @@ void fuseOctree(const GlobalOptions& global, const FuseOptions& options, const D
   OccupancyOctree map(grid, object, VoxelState::Unknown, exploration.octree.occupancy);
   std::uint64_t updated = 0;
   const std::size_t frames =
-      eachFrame(global, options, dataset, [&](const DepthImage& depth, const Pose& pose) {
-        const OccupancyUpdate scan = map.insert(depth, settings.camera, pose);
-        updated += scan.updated;
-        logDetail(fmt::format("fuse: {} hits, {} misses, {} voxels changed, {} nodes", scan.hits, scan.misses,
-                              scan.updated, map.nodeCount()));
-      });
+      eachFrame(global, options, dataset, exploration.scan,
+                [&](const DepthImage& depth, const Pose& pose, double bubble_m) {
+                  if (bubble_m > 0.0) map.clearSphere(pose.translation(), bubble_m);
+                  const OccupancyUpdate scan = map.insert(depth, settings.camera, pose);
+                  updated += scan.updated;
+                  logDetail(fmt::format("fuse: {} hits, {} misses, {} voxels changed, {} nodes", scan.hits,
+                                        scan.misses, scan.updated, map.nodeCount()));
+                });
   writeOctree(options.output, map);
   report(global, frames, grid, updated);
 }

@@ -7,7 +7,9 @@
 #include <charconv>
 #include <filesystem>
 
+#include "hardware/recording_camera.h"
 #include "hardware/replay_depth_camera.h"
+#include "hardware/ros_bridge.h"
 #include "hardware/simulated_arm.h"
 #include "hardware/simulated_depth_camera.h"
 #include "hardware/simulated_robot.h"
@@ -55,8 +57,10 @@ void takeNothingForFree(Settings& settings) {
   applyAssignment(settings, "octree.outside=unknown", "--robot");
 }
 
-/// Puts the camera into the hand of an arm.
-void giveArm(ExplorationInput& input, const std::string& robot) {
+/// Puts the camera into the hand of an arm. \param start makes the arm of a model \tparam HandCamera of that
+/// arm
+template <class HandCamera, class StartArm>
+void giveArm(ExplorationInput& input, const std::string& robot, const StartArm& start) {
   const Settings& s = input.settings;
   if (!s.exploration.enforce_reachability)
     throw InputError("exploration.enforce_reachability = false",
@@ -65,10 +69,10 @@ void giveArm(ExplorationInput& input, const std::string& robot) {
     warn("octree.outside = \"free\": the arm moves through all that was never seen outside the object's box");
   const RobotModel model = loadRobot(robot);
   try {
-    auto arm = startedArm(model, s);
+    auto arm = start(model);
     input.arm = ArmHeader{model, arm->planner().T_world_base(), s.arm.clear_boxes};
-    input.scene_camera = std::move(input.camera);
-    input.camera = std::make_unique<SimulatedHandCamera>(*input.scene_camera, *arm);
+    input.behind.push_back(std::move(input.camera));
+    input.camera = std::make_unique<HandCamera>(*input.behind.back(), *arm);
     input.robot = std::move(arm);
   } catch (const ArmRefusal& refusal) {
     throw InputError("--robot " + robot, refusal.what());
@@ -93,7 +97,7 @@ ExplorationInput openScene(const GlobalOptions& global, const std::string& name,
   if (robot == kFreeFlyer)
     input.robot = std::make_unique<FreeFlyer>(s.free_flyer, initialScanPoses(s.exploration.scan).back());
   else
-    giveArm(input, robot);
+    giveArm<SimulatedHandCamera>(input, robot, [&](const RobotModel& model) { return startedArm(model, s); });
   input.truth = std::make_unique<SceneTruth>(scene, feasibleViews(s));
   input.truth_mesh = sceneMesh(scene, false);
   return input;
@@ -107,6 +111,41 @@ ExplorationInput openReplay(const GlobalOptions& global, const std::string& fold
   input.settings = datasetSettings(global, dataset);
   input.robot = std::make_unique<FreeFlyer>(input.settings.free_flyer, dataset.frames.front().T_world_camera);
   input.camera = std::make_unique<ReplayDepthCamera>(std::move(dataset));
+  return input;
+}
+
+constexpr std::string_view kRos = "ros:";
+
+/// The part of a device's name behind its kind.
+std::string rosName(const std::string& option, const std::string& name) {
+  if (name.starts_with(kRos) && name.size() > kRos.size()) return name.substr(kRos.size());
+  throw InputError(option + " " + name,
+                   "is no device; 'vantage devices' lists them, e.g. ros:/camera/depth/image_raw");
+}
+
+/// A live camera in the hand of a live arm.
+ExplorationInput openLive(const GlobalOptions& global, const ExplorationRequest& request) {
+  if (request.robot == kFreeFlyer || request.controller.empty())
+    throw InputError(request.input,
+                     "a live camera has to be held by an arm, which tells where it is; give --robot NAME and "
+                     "--controller DEVICE ('vantage robots', 'vantage devices')");
+  ExplorationInput input;
+  input.name = "live";
+  input.live = true;
+  Settings& s = input.settings;
+  applyUserConfig(s);
+  takeNothingForFree(s);
+  applyCommandLine(s, global);
+  s.validate();
+  auto camera = std::make_unique<RosCamera>(rosName("camera", request.input),
+                                            Eigen::Vector2d(s.camera.min_range_m, s.camera.max_range_m));
+  const auto watch = [&live = *camera] { return live.trouble(); };
+  input.camera = std::move(camera);
+  s.camera = input.camera->model();
+  const RosArmTopics topics{rosName("--controller", request.controller), request.joint_states};
+  giveArm<EyeInHandCamera>(input, request.robot, [&](const RobotModel& model) {
+    return liveArm(model, s, rosArmLink(model, topics), watch);
+  });
   return input;
 }
 
@@ -185,17 +224,33 @@ LoadedMap loadRunMap(const GlobalOptions& global, const RunMap& map, MapNeed nee
 
 }  // namespace
 
-ExplorationInput openExplorationInput(const GlobalOptions& global, const std::string& name,
-                                      const std::string& planner, std::optional<int> steps,
-                                      const std::string& robot) {
-  requireScene(name);
+bool isDevice(const std::string& name) {
+  return name.starts_with(kRos);
+}
+
+ExplorationInput openExplorationInput(const GlobalOptions& global, const ExplorationRequest& request) {
+  const std::string &name = request.input, &robot = request.robot;
   GlobalOptions options = global;  // --planner and --steps are short for settings and beat them
-  if (!planner.empty()) options.assignments.push_back(fmt::format("exploration.planner={}", planner));
-  if (steps) options.assignments.push_back(fmt::format("exploration.steps={}", *steps));
-  if (!std::filesystem::is_directory(name)) return openScene(options, name, robot);
-  if (robot != kFreeFlyer)
+  if (!request.planner.empty())
+    options.assignments.push_back(fmt::format("exploration.planner={}", request.planner));
+  if (request.steps) options.assignments.push_back(fmt::format("exploration.steps={}", *request.steps));
+  const bool live = isDevice(name);
+  if (!live) requireScene(name);
+  if (!live && !request.controller.empty())
+    throw InputError(
+        "--controller " + request.controller,
+        name + " is no live camera; give one of 'vantage devices' in its place, or leave it out");
+  const bool recorded = std::filesystem::is_directory(name);
+  if (recorded && robot != kFreeFlyer)
     throw InputError("--robot " + robot, name + " is a recording, which no arm moves; leave --robot out");
-  return openReplay(options, name);
+  ExplorationInput input = live       ? openLive(options, request)
+                           : recorded ? openReplay(options, name)
+                                      : openScene(options, name, robot);
+  if (!request.record.empty()) {
+    input.behind.push_back(std::move(input.camera));
+    input.camera = std::make_unique<RecordingCamera>(*input.behind.back(), request.record, input.settings);
+  }
+  return input;
 }
 
 Settings commandSettings(const GlobalOptions& global) {

@@ -110,6 +110,7 @@ void addCommands(CLI::App& app, const GlobalOptions& global, Action& action) {
   addPath(app, global, action);
   addScenes(app, global, action);
   addRobots(app, global, action);
+  addDevices(app, global, action);
   addCompare(app, global, action);
   addConfig(app, global, action);
   addInfo(app, global, action);
