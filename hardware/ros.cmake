@@ -2,14 +2,14 @@
 # does not package. VANTAGE_ROS_FOUND says whether there is all of it.
 option(VANTAGE_ROS "Build the ROS 1 adapter and read ROS 1 recordings" ON)
 
-set(VANTAGE_ROS_FOUND FALSE)
+set(VANTAGE_ROS_FOUND FALSE CACHE INTERNAL "")
 if(VANTAGE_ROS)
-  pkg_check_modules(ROS IMPORTED_TARGET roscpp rosconsole roscpp_serialization rostime sensor_msgs trajectory_msgs actionlib)
+  pkg_check_modules(ROS IMPORTED_TARGET GLOBAL roscpp rosconsole roscpp_serialization rostime sensor_msgs trajectory_msgs actionlib)
   find_program(ROS_GENACTION genaction.py PATHS /usr/lib/actionlib_msgs)
   find_program(ROS_GENCPP gen_cpp.py PATHS /usr/lib/gencpp)
   find_path(ROS_MESSAGES std_msgs/msg/Header.msg PATHS /usr/share)
   if(ROS_FOUND AND ROS_GENACTION AND ROS_GENCPP AND ROS_MESSAGES)
-    set(VANTAGE_ROS_FOUND TRUE)
+    set(VANTAGE_ROS_FOUND TRUE CACHE INTERNAL "")
   else()
     message(STATUS "ROS 1 not found: built without its adapter (Debian: libroscpp-dev libsensor-msgs-dev "
                    "libtrajectory-msgs-dev libactionlib-dev python3-gencpp ros-actionlib-msgs)")

@@ -53,10 +53,10 @@ std::string whyNoNode() {
 }
 
 ros::NodeHandle& node() {
-  static std::unique_ptr<Node> node;
+  static Node* node = nullptr;  // ROS shuts itself down when the program ends, in an order of its own
   if (node) return node->handle;
   if (const std::string why = whyNoNode(); !why.empty()) throw std::runtime_error(why);
-  node = std::make_unique<Node>();
+  node = new Node;
   node->spinner.start();
   return node->handle;
 }

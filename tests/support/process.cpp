@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -17,15 +18,7 @@
 namespace vantage::test {
 namespace {
 
-[[noreturn]] void becomeChild(const std::vector<std::string>& words, const ProcessOptions& options,
-                              const int in[2], const int out[2], const int err[2]) {
-  dup2(in[0], STDIN_FILENO);
-  dup2(out[1], STDOUT_FILENO);
-  dup2(err[1], STDERR_FILENO);
-  for (const int* pipe : {in, out, err}) {
-    close(pipe[0]);
-    close(pipe[1]);
-  }
+[[noreturn]] void becomeProgram(const std::vector<std::string>& words, const ProcessOptions& options) {
   for (const auto& [name, value] : options.environment) setenv(name.c_str(), value.c_str(), 1);
   if (!options.folder.empty() && chdir(options.folder.c_str()) != 0) _exit(126);
   if (options.file_size_limit > 0) {
@@ -42,6 +35,18 @@ namespace {
   argv.push_back(nullptr);
   execv(argv[0], argv.data());
   _exit(127);
+}
+
+[[noreturn]] void becomeChild(const std::vector<std::string>& words, const ProcessOptions& options,
+                              const int in[2], const int out[2], const int err[2]) {
+  dup2(in[0], STDIN_FILENO);
+  dup2(out[1], STDOUT_FILENO);
+  dup2(err[1], STDERR_FILENO);
+  for (const int* pipe : {in, out, err}) {
+    close(pipe[0]);
+    close(pipe[1]);
+  }
+  becomeProgram(words, options);
 }
 
 }  // namespace
@@ -87,6 +92,26 @@ ProcessResult runProcess(const std::vector<std::string>& words, const ProcessOpt
   waitpid(child, &status, 0);
   result.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return result;
+}
+
+BackgroundProcess::BackgroundProcess(const std::vector<std::string>& words, const ProcessOptions& options)
+    : child_(fork()) {
+  if (child_ < 0) throw std::runtime_error("no process");
+  if (child_ == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // it must not outlive a test that was killed
+    becomeProgram(words, options);
+  }
+}
+
+BackgroundProcess::~BackgroundProcess() {
+  if (!running()) return;
+  kill(child_, SIGKILL);
+  waitpid(child_, nullptr, 0);
+}
+
+bool BackgroundProcess::running() const {
+  if (child_ > 0 && waitpid(child_, nullptr, WNOHANG) == child_) child_ = -1;
+  return child_ > 0;
 }
 
 TemporaryFolder::TemporaryFolder() {

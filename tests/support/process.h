@@ -25,6 +25,19 @@ struct ProcessOptions {
 /// Runs a program and waits for it. The first word is its path.
 ProcessResult runProcess(const std::vector<std::string>& words, const ProcessOptions& options = {});
 
+/// A program that runs beside the test, until it is killed at the end. What it prints goes to the test's own
+/// output.
+class BackgroundProcess {
+ public:
+  explicit BackgroundProcess(const std::vector<std::string>& words, const ProcessOptions& options = {});
+  ~BackgroundProcess();
+  BackgroundProcess(const BackgroundProcess&) = delete;
+  bool running() const;
+
+ private:
+  mutable int child_ = -1;  ///< -1 = ended
+};
+
 /// A new folder that is removed at the end of the test.
 class TemporaryFolder {
  public:
