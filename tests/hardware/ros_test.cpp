@@ -272,6 +272,25 @@ TEST(RosSession, IsRecordedAndReplaysToTheSameMap) {
   EXPECT_TRUE(std::ranges::equal(again.voxels(), live.voxels()));
 }
 
+#ifdef OPENNI_FOLDER
+TEST(RosSession, ACameraOfOpenNiSitsInTheSameHand) {
+  const Robot robot;
+  const TemporaryFolder folder;
+  ProcessOptions options;
+  options.environment["LD_LIBRARY_PATH"] = OPENNI_FOLDER;
+  const ProcessResult result =
+      vantage({"explore", "openni2:test://depth", "--robot", "smart_six", "--controller",
+               "ros:" + robot.arm().controller, "--joint-states", robot.arm().joint_states, "--steps", "0",
+               "--set", "scan.initial_frames=3", "-o", folder / "live.vantage"},
+              options);
+  ASSERT_EQ(result.code, 0) << result.err;
+  const RunReader run(folder / "live.vantage");
+  EXPECT_EQ(run.header().camera.width, 320);
+  EXPECT_EQ(run.closing().scan.size(), 3u);
+  EXPECT_TRUE(std::filesystem::exists(folder / "live-frames/frame-000002.depth.png"));
+}
+#endif
+
 /// What is lost, and what the program says about it.
 struct Loss {
   const char* fault;

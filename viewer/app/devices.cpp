@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hardware/device_list.h"
+#include "hardware/openni_camera.h"
 #include "hardware/ros_bridge.h"
 #include "viewer/app/command.h"
 #include "viewer/app/json_output.h"
@@ -34,7 +35,7 @@ Json toJson(const DeviceKind& kind) {
 
 int devices(const GlobalOptions& global) {
   Json all = Json::array();
-  for (const DeviceKind& kind : {rosDevices()}) {
+  for (const DeviceKind& kind : {openNiDevices(), rosDevices()}) {
     if (global.json != "-") printKind(kind);
     all.push_back(toJson(kind));
   }

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <filesystem>
 
+#include "hardware/openni_camera.h"
 #include "hardware/recording_camera.h"
 #include "hardware/replay_depth_camera.h"
 #include "hardware/ros_bridge.h"
@@ -114,13 +115,24 @@ ExplorationInput openReplay(const GlobalOptions& global, const std::string& fold
   return input;
 }
 
-constexpr std::string_view kRos = "ros:";
+constexpr std::string_view kRos = "ros:", kOpenNi = "openni2:";
 
-/// The part of a device's name behind its kind.
-std::string rosName(const std::string& option, const std::string& name) {
-  if (name.starts_with(kRos) && name.size() > kRos.size()) return name.substr(kRos.size());
-  throw InputError(option + " " + name,
-                   "is no device; 'vantage devices' lists them, e.g. ros:/camera/depth/image_raw");
+/// The part of a device's name behind its kind; empty if it is of another.
+std::string nameOf(std::string_view kind, const std::string& device) {
+  return device.starts_with(kind) ? device.substr(kind.size()) : std::string();
+}
+
+/// A camera, and what keeps its images from coming (empty text: nothing does).
+struct LiveCamera {
+  std::unique_ptr<DepthCamera> camera;
+  std::function<std::string()> trouble;
+};
+
+template <class Camera>
+LiveCamera openCamera(const std::string& name, const PinholeCamera& settings) {
+  auto camera = std::make_unique<Camera>(name, Eigen::Vector2d(settings.min_range_m, settings.max_range_m));
+  const Camera& opened = *camera;
+  return {std::move(camera), [&opened] { return opened.trouble(); }};
 }
 
 /// A live camera in the hand of a live arm.
@@ -137,14 +149,17 @@ ExplorationInput openLive(const GlobalOptions& global, const ExplorationRequest&
   takeNothingForFree(s);
   applyCommandLine(s, global);
   s.validate();
-  auto camera = std::make_unique<RosCamera>(rosName("camera", request.input),
-                                            Eigen::Vector2d(s.camera.min_range_m, s.camera.max_range_m));
-  const auto watch = [&live = *camera] { return live.trouble(); };
-  input.camera = std::move(camera);
+  const std::string controller = nameOf(kRos, request.controller);
+  if (controller.empty())
+    throw InputError("--controller " + request.controller,
+                     "is no controller; 'vantage devices' lists them, e.g. ros:/arm/follow_joint_trajectory");
+  const std::string openni = nameOf(kOpenNi, request.input);
+  LiveCamera live = openni.empty() ? openCamera<RosCamera>(nameOf(kRos, request.input), s.camera)
+                                   : openCamera<OpenNiCamera>(openni, s.camera);
+  input.camera = std::move(live.camera);
   s.camera = input.camera->model();
-  const RosArmTopics topics{rosName("--controller", request.controller), request.joint_states};
   giveArm<EyeInHandCamera>(input, request.robot, [&](const RobotModel& model) {
-    return liveArm(model, s, rosArmLink(model, topics), watch);
+    return liveArm(model, s, rosArmLink(model, {controller, request.joint_states}), live.trouble);
   });
   return input;
 }
@@ -225,7 +240,7 @@ LoadedMap loadRunMap(const GlobalOptions& global, const RunMap& map, MapNeed nee
 }  // namespace
 
 bool isDevice(const std::string& name) {
-  return name.starts_with(kRos);
+  return name.starts_with(kRos) || name.starts_with(kOpenNi);
 }
 
 ExplorationInput openExplorationInput(const GlobalOptions& global, const ExplorationRequest& request) {
