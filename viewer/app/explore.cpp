@@ -13,6 +13,7 @@
 #include "viewer/app/command.h"
 #include "viewer/app/console.h"
 #include "viewer/app/counted.h"
+#include "viewer/app/exploration_input.h"
 #include "viewer/app/inputs.h"
 #include "viewer/app/step_text.h"
 
