@@ -174,6 +174,45 @@ TEST_F(ExploreCommand, InfoDescribesTheRun) {
 }
 
 /// One step of an arm serves all tests of these.
+TEST(ExploreRecord, KeepsEveryFrameInAFolderOfItsOwn) {
+  const TemporaryFolder folder;
+  const std::string frames = folder / "frames";
+  const ProcessResult run =
+      vantage({"explore", "box", "--steps", "0", "-o", folder / "box.vantage", "--record", frames});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("frames recorded in " + frames), std::string::npos) << run.out;
+  EXPECT_TRUE(std::filesystem::exists(frames + "/frame-000029.pose.txt"));
+  EXPECT_FALSE(std::filesystem::exists(frames + "/frame.part"));
+  const ProcessResult info = vantage({"info", frames});
+  EXPECT_EQ(info.code, 0) << info.err;
+  expectRefused(
+      vantage({"explore", "box", "--steps", "0", "-o", folder / "again.vantage", "--record", frames}),
+      {frames, "there is something in it"});
+  EXPECT_FALSE(std::filesystem::exists(folder / "again.vantage"));
+}
+
+TEST(ExploreLive, SaysWhatIsMissing) {
+  const TemporaryFolder folder;
+  ProcessOptions options;
+  options.folder = folder.path();
+  options.environment["ROS_MASTER_URI"] = "http://127.0.0.1:1";
+  options.environment["ROS_HOME"] = folder.path();
+  expectRefused(vantage({"explore", "ros:/camera/image_raw"}, options), {"held by an arm", "--controller"});
+  expectRefused(
+      vantage({"explore", "ros:/camera/image_raw", "--robot", "ur5", "--controller", "ros:/arm"}, options),
+      {"ros:/camera/image_raw"});
+  expectRefused(
+      vantage({"explore", "ros:/camera/image_raw", "--robot", "ur5", "--controller", "arm"}, options),
+      {"--controller arm", "vantage devices"});
+  expectRefused(vantage({"explore", "box", "--controller", "ros:/arm"}, options), {"box is no live camera"});
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << "nothing is left behind";
+  const ProcessResult devices = vantage({"devices", "--json", "-"}, options);
+  ASSERT_EQ(devices.code, 0) << devices.err;
+  const Json kinds = Json::parse(devices.out);
+  ASSERT_EQ(kinds.size(), 2u);
+  for (const Json& kind : kinds) EXPECT_NE(kind["note"], "") << "no camera and no master are here";
+}
+
 class ExploreByArm : public testing::Test {
  protected:
   static void SetUpTestSuite() {
