@@ -1,5 +1,8 @@
 #include "io/dataset.h"
 
+#include <fstream>
+
+#include "io/bag_dataset.h"
 #include "io/dataset_parts.h"
 #include "io/text_file.h"
 
@@ -63,21 +66,29 @@ void validateCamera(const fs::path& folder, const PinholeCamera& camera) {
   }
 }
 
-}  // namespace
-
-bool looksLikeDataset(const fs::path& path) {
+bool isBag(const fs::path& path) {
   std::error_code error;
-  return fs::is_directory(path, error) && (fs::exists(path / "dataset.toml", error) ||
-                                           !dataset::frameFolder(path).empty() || dataset::isTum(path));
+  if (fs::is_directory(path, error)) return false;
+  if (path.extension() == ".bag") return true;
+  constexpr std::string_view kMagic = "#ROSBAG V";
+  if (!fs::is_regular_file(path, error)) return false;
+  std::string head(kMagic.size(), '\0');
+  return std::ifstream(path, std::ios::binary).read(head.data(), kMagic.size()) && head == kMagic;
 }
 
-Dataset openDataset(const fs::path& path, const std::optional<fs::path>& toml) {
-  std::error_code error;
-  if (!fs::is_directory(path, error)) throw InputError(path.string(), "is not a folder; a data set is one");
-  Description description;
-  if (toml || fs::exists(path / "dataset.toml", error))
-    description = dataset::readDescription(toml.value_or(path / "dataset.toml"));
+/// What the description adds to the frames and their camera.
+void complete(Dataset& dataset, const Description& description) {
+  dataset.camera.min_range_m = description.min_range_m.value_or(kNearest_m);
+  dataset.camera.max_range_m = description.max_range_m.value_or(kFarthest_m);
+  validateCamera(dataset.path, dataset.camera);
+  if (description.depth_unit_m) dataset.depth_format.unit_m = *description.depth_unit_m;
+  if (description.invalid_depth) dataset.depth_format.invalid = *description.invalid_depth;
+  dataset.observations_per_frame = description.observations_per_frame.value_or(10);
+  placeDataset(dataset, description.T_world_dataset);
+  dataset.bounds = description.bounds;
+}
 
+Dataset openFolder(const fs::path& path, const Description& description) {
   Dataset result;
   result.path = path;
   result.layout = layoutOf(path, description);
@@ -86,22 +97,44 @@ Dataset openDataset(const fs::path& path, const std::optional<fs::path>& toml) {
       tum ? dataset::listTumFrames(path, result.warnings) : dataset::listPatternFrames(path, description);
   if (description.world_to_camera)
     for (DatasetFrame& frame : result.frames) frame.T_world_camera = frame.T_world_camera.inverse();
-
   result.camera = findIntrinsics(path, description, result);
-  result.camera.min_range_m = description.min_range_m.value_or(kNearest_m);
-  result.camera.max_range_m = description.max_range_m.value_or(kFarthest_m);
   readSizes(result);
-  validateCamera(path, result.camera);
-  result.depth_format.unit_m = description.depth_unit_m.value_or(tum ? 0.0002 : 0.001);
-  if (description.invalid_depth) result.depth_format.invalid = *description.invalid_depth;
-  result.observations_per_frame = description.observations_per_frame.value_or(10);
-  placeDataset(result, description.T_world_dataset);
-  result.bounds = description.bounds;
+  result.depth_format.unit_m = tum ? 0.0002 : 0.001;
+  return result;
+}
+
+}  // namespace
+
+bool isDatasetPath(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error) || isBag(path);
+}
+
+bool looksLikeDataset(const fs::path& path) {
+  std::error_code error;
+  if (isBag(path)) return fs::is_regular_file(path, error);
+  return fs::is_directory(path, error) && (fs::exists(path / "dataset.toml", error) ||
+                                           !dataset::frameFolder(path).empty() || dataset::isTum(path));
+}
+
+Dataset openDataset(const fs::path& path, const std::optional<fs::path>& toml) {
+  std::error_code error;
+  const bool bag = isBag(path);
+  if (!bag && !fs::is_directory(path, error))
+    throw InputError(path.string(), "is not a folder or .bag file; a data set is one");
+  const fs::path beside = bag ? fs::path(path.string() + ".toml") : path / "dataset.toml";
+  Description description;
+  if (toml || fs::exists(beside, error))
+    description = dataset::readDescription(toml.value_or(beside),
+                                           bag ? dataset::Described::Bag : dataset::Described::Folder);
+  Dataset result = bag ? dataset::openBag(path, description) : openFolder(path, description);
+  complete(result, description);
   return result;
 }
 
 DepthImage loadDepth(const Dataset& dataset, std::size_t index) {
   const DatasetFrame& frame = dataset.frames.at(index);
+  if (dataset.source) return dataset.source->load(frame.number, dataset.depth_format);
   DepthImage depth = readDepthPng(frame.depth_path, dataset.depth_format);
   if (depth.width != dataset.camera.width || depth.height != dataset.camera.height)
     throw InputError(frame.depth_path.string(), "is " + std::to_string(depth.width) + "x" +

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,10 +18,18 @@ namespace vantage {
 
 /// One recorded frame.
 struct DatasetFrame {
-  int number = 0;  ///< as in the file's name, or position in the list (TUM RGB-D)
-  std::filesystem::path depth_path;
+  int number = 0;  ///< as in the file's name, or position in the list (TUM RGB-D) or topic (ROS)
+  std::filesystem::path depth_path;  ///< empty if the data set has a source
   std::filesystem::path color_path;  ///< empty if there is none
   Pose T_world_camera = Pose::Identity();
+};
+
+/// Depth images that are no PNG files. Safe to use from several threads.
+class DepthSource {
+ public:
+  virtual ~DepthSource() = default;
+  /// Depth of the frame with this number, metres. \throws InputError if the image is damaged.
+  virtual DepthImage load(int number, const DepthPngFormat& format) const = 0;
 };
 
 /// A recorded RGB-D sequence with poses. Images are read when asked for.
@@ -33,6 +42,13 @@ struct DatasetFrame {
 /// counts of
 ///   0.2 mm. Without `camera-intrinsics.txt`: 525, 525, 319.5, 239.5, with a warning.
 ///
+/// - A file `NAME.bag`, recorded by ROS 1: the only topic of sensor_msgs/Image with depth (16UC1 or mono16 in
+///   millimetres, 32FC1 in metres; rectified), K of `camera_info` in its namespace, and for the time of each
+///   image the pose that tf gives its frame_id (x right, y down, z forward) in the root of the tf tree.
+///   Images whose time tf does not cover are left out, with a warning; images of one and the same time are
+///   all served, with the same pose. `NAME.bag.toml` beside it may state `depth_topic`, `camera_info_topic`,
+///   `fixed_frame`, and those of the keys below that are no patterns, `layout` or `pose_convention`.
+///
 /// Keys of `dataset.toml`, all optional; file names are relative to the data set:
 /// `layout` = "frames" | "tum"; `depth_pattern`, `color_pattern`, `pose_pattern` with `{number}` in the last
 /// part; `intrinsics` (file) or `[camera]` with `fx`, `fy`, `cx`, `cy`; `depth_unit_m`; `invalid_depth` (list
@@ -42,24 +58,30 @@ struct DatasetFrame {
 /// `[bounds]` with `min_m`, `max_m` (world).
 struct Dataset {
   std::filesystem::path path;
-  std::string layout;    ///< "frames" or "tum"
+  std::string layout;    ///< "frames", "tum" or "rosbag"
   PinholeCamera camera;  ///< size of the depth images; range 0.1 .. 8 m unless stated
   DepthPngFormat depth_format;
-  std::vector<DatasetFrame> frames;         ///< ascending numbers, never empty
-  Pose T_world_dataset = Pose::Identity();  ///< already applied to the poses
-  std::optional<Box> bounds;                ///< of interest, world; if stated
-  int observations_per_frame = 10;          ///< one stop gives one frame
+  std::shared_ptr<const DepthSource> source;  ///< null = PNG files
+  std::vector<DatasetFrame> frames;           ///< ascending numbers, never empty
+  Pose T_world_dataset = Pose::Identity();    ///< already applied to the poses
+  std::optional<Box> bounds;                  ///< of interest, world; if stated
+  int observations_per_frame = 10;            ///< one stop gives one frame
   std::vector<std::string> warnings;
 };
 
-/// True for a folder that openDataset() would recognise (or a folder with a `dataset.toml`).
+/// True for what only openDataset() can take: any folder, any file that ends in `.bag` or begins like one of
+/// ROS.
+bool isDatasetPath(const std::filesystem::path& path);
+
+/// True for a folder that openDataset() would recognise (or a folder with a `dataset.toml`), and for a bag.
 bool looksLikeDataset(const std::filesystem::path& path);
 
 /// Opens a data set: lists its frames, reads all poses and the size of every image.
-/// \param toml description to use instead of a `dataset.toml` in the folder.
+/// \param toml description to use instead of a `dataset.toml` in the folder, or `NAME.bag.toml`.
 /// \throws InputError naming file (and line): no known layout, no frames, a missing or broken pose, a pose
 /// that is not
-///         rigid, an image of another size than the first or not 16-bit, broken intrinsics or description.
+///         rigid, an image of another size than the first or not 16-bit, broken intrinsics or description;
+///         a bag that cannot be read, several depth topics, no camera_info, no tf.
 Dataset openDataset(const std::filesystem::path& path,
                     const std::optional<std::filesystem::path>& toml = std::nullopt);
 

@@ -8,10 +8,11 @@
 
 namespace vantage::dataset {
 
-/// What `dataset.toml` says; absent = to be found out.
+/// What `dataset.toml` or `NAME.bag.toml` says; absent = to be found out.
 struct Description {
   std::optional<std::string> layout;
-  std::string depth_pattern, color_pattern, pose_pattern;  ///< empty = the layout's own
+  std::string depth_pattern, color_pattern, pose_pattern;                  ///< empty = the layout's own
+  std::optional<std::string> depth_topic, camera_info_topic, fixed_frame;  ///< of a bag
   std::optional<std::string> intrinsics_file;
   std::optional<PinholeCamera> camera;  ///< fx, fy, cx, cy
   std::optional<double> depth_unit_m;
@@ -23,8 +24,11 @@ struct Description {
   std::optional<Box> bounds;
 };
 
+/// What is described.
+enum class Described { Folder, Bag };
+
 /// \throws InputError FILE:LINE for broken TOML, unknown keys, wrong types and values out of range.
-Description readDescription(const std::filesystem::path& path);
+Description readDescription(const std::filesystem::path& path, Described what = Described::Folder);
 
 /// A pose as 4x4 numbers. \throws InputError naming the file if it is missing, broken or not rigid.
 Pose readPoseFile(const std::filesystem::path& path);

@@ -173,17 +173,26 @@ toml::table parse(const fs::path& path) {
 
 }  // namespace
 
-Description readDescription(const fs::path& path) {
+Description readDescription(const fs::path& path, Described what) {
   const toml::table table = parse(path);
   const Section root{table, path, ""};
-  root.requireKeys({"layout", "depth_pattern", "color_pattern", "pose_pattern", "intrinsics", "camera",
-                    "depth_unit_m", "invalid_depth", "pose_convention", "range_m", "observations_per_frame",
-                    "T_world_dataset", "bounds", "name", "description"});
+  std::vector<std::string> keys = {"intrinsics",  "camera", "depth_unit_m",           "invalid_depth",
+                                   "range_m",     "bounds", "observations_per_frame", "T_world_dataset",
+                                   "description", "name"};
+  const std::vector<std::string> of_folder = {"layout", "depth_pattern", "color_pattern", "pose_pattern",
+                                              "pose_convention"},
+                                 of_bag = {"depth_topic", "camera_info_topic", "fixed_frame"};
+  const auto& others = what == Described::Bag ? of_bag : of_folder;
+  keys.insert(keys.end(), others.begin(), others.end());
+  root.requireKeys(keys);
   Description description;
   description.layout = word(root, "layout", "frames", "tum");
   description.depth_pattern = root.text("depth_pattern").value_or("");
   description.color_pattern = root.text("color_pattern").value_or("");
   description.pose_pattern = root.text("pose_pattern").value_or("");
+  description.depth_topic = root.text("depth_topic");
+  description.camera_info_topic = root.text("camera_info_topic");
+  description.fixed_frame = root.text("fixed_frame");
   description.intrinsics_file = root.text("intrinsics");
   if (const auto camera = root.section("camera")) description.camera = cameraOf(*camera);
   readDepthFormat(root, description);

@@ -144,6 +144,17 @@ void write(const std::filesystem::path& path, ImageSize size, int bits, std::uin
 
 }  // namespace
 
+DepthImage depthOfCounts(ImageSize size, std::span<const std::uint16_t> counts,
+                         const DepthPngFormat& format) {
+  DepthImage depth(size.width, size.height);
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const bool invalid =
+        std::find(format.invalid.begin(), format.invalid.end(), counts[i]) != format.invalid.end();
+    if (!invalid && counts[i] != 0) depth.depth_m[i] = static_cast<float>(counts[i] * format.unit_m);
+  }
+  return depth;
+}
+
 ImageSize depthPngSize(const std::filesystem::path& path) {
   Report report;
   Reader reader(report);
@@ -160,13 +171,7 @@ DepthImage readDepthPng(const std::filesystem::path& path, const DepthPngFormat&
   const auto rows = rowPointers(reinterpret_cast<std::uint8_t*>(counts.data()), size, 2);
   if (!readRows(reader, report, rows))
     throw InputError(path.string(), "damaged PNG image: " + report.message);
-  DepthImage depth(size.width, size.height);
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    const bool invalid =
-        std::find(format.invalid.begin(), format.invalid.end(), counts[i]) != format.invalid.end();
-    if (!invalid && counts[i] != 0) depth.depth_m[i] = static_cast<float>(counts[i] * format.unit_m);
-  }
-  return depth;
+  return depthOfCounts(size, counts, format);
 }
 
 void writeDepthPng(const std::filesystem::path& path, const DepthImage& depth) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "core/geometry/depth_image.h"
@@ -20,6 +21,10 @@ struct ImageSize {
   int width = 0, height = 0;
   bool operator==(const ImageSize&) const = default;
 };
+
+/// Depth in metres of 16-bit counts, row-major; 0 and the invalid ones become NaN.
+/// \pre as many counts as pixels
+DepthImage depthOfCounts(ImageSize size, std::span<const std::uint16_t> counts, const DepthPngFormat& format);
 
 /// Reads the header of a 16-bit grey PNG.
 /// \throws InputError naming the file: missing, no PNG, not 16-bit grey, or larger than 8192 x 8192.

@@ -3,3 +3,8 @@ vantage_test(dataset_test dataset_test.cpp depth_png_test.cpp LIBS vantage_io_da
 vantage_test(volume_file_test volume_file_test.cpp LIBS vantage_io_data)
 vantage_test(octree_file_test octree_file_test.cpp LIBS vantage_io_data)
 vantage_test(exchange_file_test table_file_test.cpp camera_file_test.cpp cloud_file_test.cpp LIBS vantage_io_data)
+if(TARGET vantage_bag_writer)
+  vantage_test(bag_dataset_test bag_dataset_test.cpp LIBS vantage_io_data vantage_bag_writer)
+elseif(NOT TARGET vantage_ros_bag)
+  vantage_test(bag_dataset_test bag_dataset_absent_test.cpp LIBS vantage_io_data)
+endif()

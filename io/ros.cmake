@@ -1,0 +1,16 @@
+# ROS 1, found in one place: vantage_ros(TARGET MODULES...) makes an interface library TARGET of these pkg-config
+# modules, with the packages' headers as system headers. Without VANTAGE_ROS, or where a module is missing, there is no
+# such target, and the status output says which package was looked for: ask if(TARGET ...).
+function(vantage_ros target)
+  if(NOT VANTAGE_ROS)
+    message(STATUS "${target}: built without ROS (VANTAGE_ROS=OFF)")
+    return()
+  endif()
+  pkg_check_modules(${target}_modules QUIET IMPORTED_TARGET ${ARGN})
+  if(NOT ${target}_modules_FOUND)
+    message(STATUS "${target}: built without ROS; not all of these were found: ${ARGN}")
+    return()
+  endif()
+  add_library(${target} INTERFACE)
+  target_link_libraries(${target} INTERFACE PkgConfig::${target}_modules)
+endfunction()
