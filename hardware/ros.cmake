@@ -1,7 +1,5 @@
 # vantage_ros: the packages of ROS 1 that a live arm and camera need, and the headers of control_msgs, which Debian
 # does not package. VANTAGE_ROS_FOUND says whether there is all of it.
-option(VANTAGE_ROS "Build the ROS 1 adapter and read ROS 1 recordings" ON)
-
 set(VANTAGE_ROS_FOUND FALSE CACHE INTERNAL "")
 if(VANTAGE_ROS)
   pkg_check_modules(ROS IMPORTED_TARGET GLOBAL roscpp rosconsole roscpp_serialization rostime sensor_msgs trajectory_msgs actionlib)

@@ -27,10 +27,10 @@ constexpr std::size_t kHead = 4096;  // bytes in which every format says what it
 constexpr std::uintmax_t kLargestToml = 16u << 20;
 
 constexpr std::pair<const char*, FileKind> kEndings[] = {
-    {".vantage", FileKind::Run}, {".vti", FileKind::Tsdf},  {".bt", FileKind::Octree},
-    {".ot", FileKind::Octree},   {".pcd", FileKind::Cloud}, {".ply", FileKind::Mesh},
-    {".obj", FileKind::Mesh},    {".stl", FileKind::Mesh},  {".csv", FileKind::Table},
-    {".toml", FileKind::Config}};
+    {".vantage", FileKind::Run}, {".vti", FileKind::Tsdf},   {".bt", FileKind::Octree},
+    {".ot", FileKind::Octree},   {".pcd", FileKind::Cloud},  {".ply", FileKind::Mesh},
+    {".obj", FileKind::Mesh},    {".stl", FileKind::Mesh},   {".csv", FileKind::Table},
+    {".toml", FileKind::Config}, {".bag", FileKind::Dataset}};
 
 std::string endingOf(const fs::path& path) {
   std::string ending = path.extension().string();
@@ -78,6 +78,7 @@ bool isViewTable(const std::string& head) {
 /// What the beginning of a file says beyond doubt.
 std::optional<FileKind> kindOfContent(const std::string& head) {
   if (isRun(head)) return FileKind::Run;
+  if (head.starts_with("#ROSBAG V")) return FileKind::Dataset;
   if (head.starts_with("# Octomap OcTree")) return FileKind::Octree;
   if (head.find("<VTKFile") < 256) return FileKind::Tsdf;
   if (head.starts_with("# .PCD") || head.starts_with("VERSION .7")) return FileKind::Cloud;
@@ -135,6 +136,8 @@ InputError whyUnknownToml(const fs::path& path) {
     if (name.ends_with(map))
       return {name, "is the text that says which space the octree beside it maps; look at '" +
                         name.substr(0, name.size() - 5) + "'"};
+  if (name.ends_with(".bag.toml"))
+    return {name, "describes the recording beside it; look at '" + name.substr(0, name.size() - 5) + "'"};
   if (path.filename() == "dataset.toml")
     return {name, "describes the recording in its folder; look at '" +
                       (path.has_parent_path() ? path.parent_path() : fs::path(".")).string() + "'"};
@@ -178,7 +181,7 @@ FileKind kindOf(const fs::path& path) {
   if (const auto kind = kindOfContent(*head)) return *kind;
   const FileKind kind = kindOfEnding(path);
   if (kind != FileKind::Config) return kind;
-  if (path.filename() == "dataset.toml") return FileKind::Unknown;
+  if (path.filename() == "dataset.toml" || path.string().ends_with(".bag.toml")) return FileKind::Unknown;
   try {
     return kindOfToml(parseToml(path));
   } catch (const InputError&) {

@@ -21,7 +21,7 @@ enum class FileKind {
   Table,    ///< any other table (`.csv`)
   Recipe,   ///< how a picture is drawn (TOML)
   Config,   ///< parameters (TOML)
-  Dataset,  ///< folder with depth images and poses
+  Dataset,  ///< depth images and poses: a folder, or a .bag of ROS 1
   Unknown,
 };
 

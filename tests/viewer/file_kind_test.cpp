@@ -99,6 +99,10 @@ TEST_F(FileKindTest, KnowsFoldersAndNamesOfScenes) {
   write("data/dataset.toml", "");
   EXPECT_EQ(kindOf(folder_ / "data"), FileKind::Dataset);
   EXPECT_THAT(why(folder_ / "data/dataset.toml"), HasSubstr("recording in its folder"));
+  EXPECT_EQ(kindOf(write("a.bag", "nonsense\n")), FileKind::Dataset) << "its reader says what is wrong";
+  EXPECT_EQ(kindOf(write("recording", "#ROSBAG V2.0\n")), FileKind::Dataset);
+  EXPECT_THAT(why(write("a.bag.toml", "[camera]\nfx = 1\n")),
+              AllOf(HasSubstr("recording beside it"), HasSubstr("a.bag'")));
 }
 
 TEST_F(FileKindTest, SaysWhyAFileIsUnknown) {

@@ -87,10 +87,10 @@ ExplorationInput openScene(const GlobalOptions& global, const std::string& name,
   return input;
 }
 
-ExplorationInput openReplay(const GlobalOptions& global, const std::string& folder) {
-  Dataset dataset = openDataset(folder);
+ExplorationInput openReplay(const GlobalOptions& global, const std::string& path) {
+  Dataset dataset = openDataset(path);
   ExplorationInput input;
-  input.name = std::filesystem::canonical(folder).filename().string();
+  input.name = std::filesystem::canonical(path).filename().string();
   input.replay = true;
   input.settings = datasetSettings(global, dataset);
   input.robot = std::make_unique<FreeFlyer>(input.settings.free_flyer, dataset.frames.front().T_world_camera);
@@ -165,7 +165,7 @@ ExplorationInput openExplorationInput(const GlobalOptions& global, const Explora
     throw InputError(
         "--controller " + request.controller,
         name + " is no live camera; give one of 'vantage devices' in its place, or leave it out");
-  const bool recorded = std::filesystem::is_directory(name);
+  const bool recorded = isDatasetPath(name);
   if (recorded && robot != kFreeFlyer)
     throw InputError("--robot " + robot, name + " is a recording, which no arm moves; leave --robot out");
   ExplorationInput input = live       ? openLive(options, request)

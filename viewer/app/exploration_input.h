@@ -15,7 +15,7 @@ namespace vantage::app {
 
 /// Everything an exploration needs, wired from a scene or a data set.
 struct ExplorationInput {
-  std::string name;        ///< scene name or data set folder name
+  std::string name;        ///< scene name or the data set's name
   std::string scene_text;  ///< scene TOML, empty for a data set
   bool replay = false;
   bool live = false;  ///< devices, not simulated
@@ -30,7 +30,7 @@ struct ExplorationInput {
 
 /// What the command line says about an exploration.
 struct ExplorationRequest {
-  std::string input;  ///< embedded scene, scene TOML, folder of a data set, or a live camera
+  std::string input;  ///< embedded scene, scene TOML, data set (folder or .bag), or a live camera
   std::string planner;
   std::optional<int> steps;
   std::string robot = "free";  ///< or an embedded arm or a URDF file; recorded data have none but "free"

@@ -191,7 +191,7 @@ void addExplore(CLI::App& app, const GlobalOptions& global, Action& action) {
       app.add_subcommand("explore", "Explore a scene or replay a data set: the whole loop, recorded");
   command
       ->add_option("input", options->input,
-                   "Embedded scene, scene TOML, folder of a recorded RGB-D sequence, or a live camera")
+                   "Embedded scene, scene TOML, recorded RGB-D sequence (folder or .bag), or a live camera")
       ->required()
       ->type_name("SCENE|DATASET|CAMERA");
   command->add_option("-o,--output", options->run, "Run file to write (default: NAME.vantage)")

@@ -216,7 +216,7 @@ int fuse(const GlobalOptions& global, const FuseOptions& options) {
 void addFuse(CLI::App& app, const GlobalOptions& global, Action& action) {
   auto o = std::make_shared<FuseOptions>();
   CLI::App* command = app.add_subcommand("fuse", "Depth frames with poses into a TSDF or an octree");
-  command->add_option("dataset", o->dataset, "Folder of a recorded RGB-D sequence")
+  command->add_option("dataset", o->dataset, "Recorded RGB-D sequence: a folder, or a .bag of ROS 1")
       ->required()
       ->type_name("DATASET");
   command->add_option("-o,--output", o->output, "Map to write: TSDF (.vti) or octree (.bt, .ot)")

@@ -214,7 +214,7 @@ void addInfo(CLI::App& app, const GlobalOptions& global, Action& action) {
   command
       ->add_option(
           "file", *path,
-          "Run, RUN#STEP, .vti, .bt, .ot, .pcd, .ply, .obj, .stl, CSV, TOML, scene, or data set folder")
+          "Run, RUN#STEP, .vti, .bt, .ot, .pcd, .ply, .obj, .stl, CSV, TOML, scene, data set folder, or .bag")
       ->required()
       ->type_name("FILE");
   command->footer("Example: vantage info tabletop.vantage");

@@ -117,7 +117,7 @@ Settings commandSettings(const GlobalOptions& global) {
 Settings sceneSettings(const GlobalOptions& global, const std::string& scene) {
   Settings settings;
   applyUserConfig(settings);
-  if (std::filesystem::is_directory(scene)) {
+  if (isDatasetPath(scene)) {
     Dataset dataset = openDataset(scene);
     return datasetSettings(global, dataset);
   }
@@ -188,7 +188,7 @@ std::vector<ScanPose> posesLeft(const LoadedMap& map) {
     for (const ViewUtility& view : map.record->utilities->views)
       if (view.frame >= 0) left.push_back({view.T_world_camera, view.frame});
   if (!left.empty()) return left;
-  if (!std::filesystem::is_directory(map.recording))
+  if (!std::filesystem::exists(map.recording))
     throw InputError(
         map.recording,
         "the recording of this run is not here, and without it nobody knows which poses are left; "
@@ -232,10 +232,10 @@ void requireDistinctFiles(const std::vector<std::pair<std::string, std::string>>
 void requireScene(const std::string& name) {
   const std::string ending = std::filesystem::path(name.substr(0, name.find('#'))).extension().string();
   for (const char* other : {".bt", ".ot", ".vti", ".vantage", ".pcd", ".ply", ".obj", ".csv", ".png"})
-    if (ending == other && !std::filesystem::is_directory(name))
+    if (ending == other && !isDatasetPath(name))
       throw InputError(
           name, fmt::format("is a {} file, and a scene is wanted; give the name of one (vantage scenes), a "
-                            "scene's .toml, or the folder of a recording",
+                            "scene's .toml, or a recording (folder or .bag)",
                             other));
 }
 

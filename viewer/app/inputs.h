@@ -40,7 +40,7 @@ struct LoadedMap {
   std::optional<StepRecord> record;  ///< of RUN#STEP
   int step = 1;                      ///< of RUN#STEP
   Exclusions exclusions;             ///< what the run's earlier steps left out
-  std::string recording;             ///< of a replay: folder of the data set
+  std::string recording;             ///< of a replay: path of the data set
   std::set<int> frames_taken;        ///< of a replay: numbers of the frames that were served up to the step
   std::shared_ptr<MotionPlanner> motion;  ///< of the run's robot; null for maps that are no run's
   Settings settings;  ///< commandSettings(), over the run's own configuration for RUN#STEP

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/config_file.h"
+#include "io/dataset.h"
 #include "io/text_file.h"
 #include "viewer/app/command.h"
 #include "viewer/app/console.h"
@@ -121,8 +122,8 @@ void requireFolder(const std::string& path) {
 
 /// What can be refused is refused before hours are spent.
 void check(const Choice& choice, const ExperimentOptions& options) {
-  if (!options.dataset.empty() && !std::filesystem::is_directory(options.dataset))
-    throw InputError("--dataset " + options.dataset, "is no folder; give one with a recorded sequence");
+  if (!options.dataset.empty() && !isDatasetPath(options.dataset))
+    throw InputError("--dataset " + options.dataset, "is no recording; give a folder with one, or a .bag");
   if (choice.has("A1")) checkA1(options);
   if (choice.has("A2")) checkA2(options);
   if (choice.has("A3")) checkA3(options);
