@@ -1,116 +1,19 @@
 #include "io/bag_dataset.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
-#include <numeric>
+#include <tuple>
 
+#include "io/bag_depth.h"
 #include "io/bag_poses.h"
 #include "io/bag_topics.h"
 #include "io/suggest.h"
-#include "io/text_file.h"
 
 namespace vantage::dataset {
 namespace {
 
 namespace fs = std::filesystem;
 using namespace bag;
-
-constexpr std::uint32_t kLargestSide = 8192;
-constexpr std::size_t kMostFrames = 200000;
-
-/// What all images of a topic have in common.
-struct ImageKind {
-  ImageSize size;
-  std::string encoding;
-
-  bool operator==(const ImageKind&) const = default;
-};
-
-std::string text(const ImageSize& size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
-/// The depth images of one topic, read when asked for.
-class DepthTopic : public DepthSource {
- public:
-  DepthTopic(std::shared_ptr<const BagFile> bag, std::string topic)
-      : bag_(std::move(bag)), topic_(std::move(topic)), places_(messagesOf(*bag_, topic_)) {
-    if (places_.size() > kMostFrames) throw InputError(bag_->path().string(), "more than 200000 frames");
-  }
-
-  const std::vector<MessagePlace>& places() const { return places_; }
-
-  /// Checks what an image says about itself; all are like the first.
-  Image open(std::size_t number, const Message& message) {
-    const Image image = parseImage(*bag_, message);
-    const ImageKind kind = kindOf(number, image);
-    if (number == 0) kind_ = kind;
-    requireKind(number, kind);
-    return image;
-  }
-
-  const ImageKind& kind() const { return kind_; }
-
-  DepthImage load(int number, const DepthPngFormat& format) const override {
-    const Message message = bag_->read(places_.at(number));
-    const Image image = parseImage(*bag_, message);
-    const ImageKind kind = kindOf(number, image);
-    requireKind(number, kind);
-    return isCounts(kind.encoding) ? depthOfCounts(kind.size, pixels<std::uint16_t>(image), format)
-                                   : depthOfMetres(kind.size, pixels<float>(image), format);
-  }
-
- private:
-  [[noreturn]] void refuse(std::size_t number, const std::string& what) const {
-    throw InputError(bag_->path().string(),
-                     "image " + std::to_string(number) + " of " + quoted(topic_) + " " + what);
-  }
-
-  ImageKind kindOf(std::size_t number, const Image& image) const {
-    const ImageKind kind{{static_cast<int>(image.width), static_cast<int>(image.height)}, image.encoding};
-    if (image.width < 1 || image.height < 1 || image.width > kLargestSide || image.height > kLargestSide)
-      refuse(number, "is " + std::to_string(image.width) + "x" + std::to_string(image.height) +
-                         "; allowed: 1x1 .. 8192x8192");
-    if (!isCounts(image.encoding) && !isMetres(image.encoding))
-      refuse(number, "is of encoding " + quoted(image.encoding) + "; 16UC1, mono16 or 32FC1 is wanted");
-    if (image.big_endian) refuse(number, "is big-endian; little-endian images are wanted");
-    const std::uint64_t row = std::uint64_t{image.width} * (isCounts(image.encoding) ? 2 : 4);
-    if (image.step < row || image.data.size() != std::uint64_t{image.step} * image.height)
-      refuse(number, "holds " + std::to_string(image.data.size()) + " bytes in rows of " +
-                         std::to_string(image.step) + ", which does not fit " + text(kind.size) +
-                         " pixels of " + image.encoding);
-    return kind;
-  }
-
-  void requireKind(std::size_t number, const ImageKind& kind) const {
-    if (kind == kind_) return;
-    refuse(number, "is " + text(kind.size) + " of " + kind.encoding + "; the first is " + text(kind_.size) +
-                       " of " + kind_.encoding + ", all must be alike");
-  }
-
-  template <typename T>
-  static std::vector<T> pixels(const Image& image) {
-    std::vector<T> values(static_cast<std::size_t>(image.width) * image.height);
-    for (std::size_t v = 0; v < image.height; ++v)
-      std::memcpy(&values[v * image.width], &image.data[v * image.step], image.width * sizeof(T));
-    return values;
-  }
-
-  static DepthImage depthOfMetres(ImageSize size, const std::vector<float>& values,
-                                  const DepthPngFormat& format) {
-    DepthImage depth(size.width, size.height);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (DepthImage::valid(values[i])) depth.depth_m[i] = static_cast<float>(values[i] * format.unit_m);
-    return depth;
-  }
-
-  std::shared_ptr<const BagFile> bag_;
-  std::string topic_;
-  std::vector<MessagePlace> places_;  ///< by frame number
-  ImageKind kind_;                    ///< of the first image
-};
 
 /// What one pass over the recording brings.
 struct Recording {
@@ -183,7 +86,8 @@ PinholeCamera cameraOfInfo(const Dataset& result, const std::string& topic, cons
                       info.height != static_cast<std::uint32_t>(result.camera.height)))
     throw InputError(result.path.string(), quoted(topic) + " is of images of " + std::to_string(info.width) +
                                                "x" + std::to_string(info.height) + ", those recorded are " +
-                                               text(ImageSize{result.camera.width, result.camera.height}));
+                                               std::to_string(result.camera.width) + "x" +
+                                               std::to_string(result.camera.height));
   if (info.distorted)
     warnings.push_back(result.path.string() + ": " + quoted(topic) +
                        " states distortion; depth images are taken as rectified");
@@ -273,13 +177,13 @@ Dataset openBag(const fs::path& path, const Description& description) {
   Dataset result;
   result.path = path;
   result.layout = "rosbag";
-  result.camera.width = depth->kind().size.width;
-  result.camera.height = depth->kind().size.height;
+  result.camera.width = depth->size().width;
+  result.camera.height = depth->size().height;
   result.camera = cameraOf(result, description, topics.camera_info, recording, result.warnings);
   const std::string fixed_frame = fixedFrame(path, description, recording);
   result.frames = framesOf(path, recording, fixed_frame, result.warnings);
   warnOfTimes(path, recording, result.warnings);
-  if (isMetres(depth->kind().encoding)) result.depth_format = {1.0, {}};
+  if (isMetres(depth->encoding())) result.depth_format = {1.0, {}};
   result.source = depth;
   return result;
 }

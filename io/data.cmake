@@ -11,7 +11,7 @@ if(BZIP2_FOUND)
   vantage_ros(vantage_ros_bag tf2 liblz4)
 endif()
 if(TARGET vantage_ros_bag)
-  set(VANTAGE_BAG_SOURCES bag_dataset.cpp bag_file.cpp bag_messages.cpp bag_poses.cpp bag_topics.cpp)
+  set(VANTAGE_BAG_SOURCES bag_dataset.cpp bag_depth.cpp bag_file.cpp bag_messages.cpp bag_poses.cpp bag_topics.cpp)
   set(VANTAGE_BAG_LIBRARIES vantage_ros_bag BZip2::BZip2)
   set_source_files_properties(bag_poses.cpp PROPERTIES COMPILE_OPTIONS -std=c++17)  # as the headers of ROS 1
 else()

@@ -1,6 +1,7 @@
-# ROS 1, found in one place: vantage_ros(TARGET MODULES...) makes an interface library TARGET of these pkg-config
-# modules, with the packages' headers as system headers. Without VANTAGE_ROS, or where a module is missing, there is no
-# such target, and the status output says which package was looked for: ask if(TARGET ...).
+# ROS 1, found in one place: vantage_ros(TARGET MODULES...) makes an interface library TARGET of these
+# pkg-config modules; their headers count as system headers. There is no such target, and the status output
+# says why, without VANTAGE_ROS or where a module is missing: ask if(TARGET ...). Sources with headers of ROS
+# have to be C++17.
 function(vantage_ros target)
   if(NOT VANTAGE_ROS)
     message(STATUS "${target}: built without ROS (VANTAGE_ROS=OFF)")
