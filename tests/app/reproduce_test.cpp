@@ -107,10 +107,10 @@ TEST(Reproduce, RefusesWhatItCannotRun) {
   expectRefused(reproduce({"A3", "--quick", "--dataset", folder / "none", "-o", folder / "out"}), {"none"});
   const ProcessResult missing =
       reproduce({"A1", "A3", "--quick", "--dataset", folder / "none", "-o", folder / "out"});
-  expectRefused(missing, {"--dataset", "none", "no folder"});
+  expectRefused(missing, {"--dataset", "none", "no recording"});
   EXPECT_EQ(missing.out.find("views"), std::string::npos) << "nothing was run before";
   writeFile(folder.path() / "file", "x");
-  expectRefused(reproduce({"A1", "--quick", "-o", folder / "file"}), {"file", "no folder"});
+  expectRefused(reproduce({"A1", "--quick", "-o", folder / "file"}), {"file", "no recording"});
   expectRefused(reproduce({"A1", "--quick", "--set", "rays.coarse=2", "-o", folder / "out"}),
                 {"rays.coarse", "did you mean"});
 }
