@@ -49,6 +49,8 @@ std::string LiveArm::trouble() const {
 void LiveArm::follow(const JointTrajectory& trajectory, const RunControl& control) {
   control.check();
   if (const std::string lost = trouble(); !lost.empty()) throw DeviceLost(lost);
+  if (trajectory.duration_s() < planner().config().timing.period_s)
+    return;  // it is there; controllers refuse such
   MotionGuard guard(*link_);
   link_->send(trajectory);
   const auto late_at = Clock::now() + Seconds(trajectory.duration_s() + kLate_s);

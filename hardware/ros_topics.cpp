@@ -7,6 +7,8 @@
 #include <sensor_msgs/JointState.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <regex>
 #include <stdexcept>
 #include <utility>
 
@@ -27,6 +29,13 @@ struct Node {
   ros::AsyncSpinner spinner{1};
 };
 
+/// Why ROS_MASTER_URI is none; ROS itself would end the program.
+std::string whyNoUri() {
+  const char* uri = std::getenv("ROS_MASTER_URI");
+  if (!uri || std::regex_match(uri, std::regex("http://[^:/ ]+:[0-9]{1,5}/?"))) return {};
+  return fmt::format("ROS_MASTER_URI is '{}', and no address; wanted: http://HOST:PORT", uri);
+}
+
 template <class Message>
 Subscription subscribe(const std::string& topic, std::function<void(const Message&)> take) {
   return std::make_shared<ros::Subscriber>(node().subscribe<Message>(
@@ -37,6 +46,7 @@ Subscription subscribe(const std::string& topic, std::function<void(const Messag
 }  // namespace
 
 std::string whyNoNode() {
+  if (std::string why = whyNoUri(); !why.empty()) return why;
   if (!ros::isInitialized()) {
     try {
       ros::init(ros::M_string(), "vantage",
@@ -53,11 +63,15 @@ std::string whyNoNode() {
 }
 
 ros::NodeHandle& node() {
-  static Node* node = nullptr;  // ROS shuts itself down when the program ends, in an order of its own
+  static Node* node = nullptr;  // never destroyed: only ended, before what ROS uses is destroyed
   if (node) return node->handle;
   if (const std::string why = whyNoNode(); !why.empty()) throw std::runtime_error(why);
   node = new Node;
   node->spinner.start();
+  std::atexit([] {  // its thread would go on while what it uses is destroyed
+    node->spinner.stop();
+    ros::shutdown();
+  });
   return node->handle;
 }
 

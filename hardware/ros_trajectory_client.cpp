@@ -42,7 +42,7 @@ void TrajectoryClient::send(const std::vector<std::string>& joints, const std::v
 TrajectoryClient::State TrajectoryClient::state() {
   const actionlib::SimpleClientGoalState state = client_->actions.getState();
   if (!state.isDone()) return State::Moving;
-  client_->sent = false;
+  client_->sent = state == actionlib::SimpleClientGoalState::LOST;  // then the controller may still be moving
   return state == actionlib::SimpleClientGoalState::SUCCEEDED ? State::Succeeded : State::Failed;
 }
 

@@ -206,6 +206,10 @@ TEST(ExploreLive, SaysWhatIsMissing) {
       {"--controller arm", "vantage devices"});
   expectRefused(vantage({"explore", "box", "--controller", "ros:/arm"}, options), {"box is no live camera"});
   EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << "nothing is left behind";
+  options.environment["ROS_MASTER_URI"] = "somewhere";
+  const ProcessResult nowhere = vantage({"devices"}, options);
+  EXPECT_EQ(nowhere.code, 0) << nowhere.err;
+  EXPECT_NE(nowhere.out.find("ros: "), std::string::npos) << nowhere.out;
   const ProcessResult devices = vantage({"devices", "--json", "-"}, options);
   ASSERT_EQ(devices.code, 0) << devices.err;
   const Json kinds = Json::parse(devices.out);

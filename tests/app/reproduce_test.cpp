@@ -110,7 +110,7 @@ TEST(Reproduce, RefusesWhatItCannotRun) {
   expectRefused(missing, {"--dataset", "none", "no recording"});
   EXPECT_EQ(missing.out.find("views"), std::string::npos) << "nothing was run before";
   writeFile(folder.path() / "file", "x");
-  expectRefused(reproduce({"A1", "--quick", "-o", folder / "file"}), {"file", "no recording"});
+  expectRefused(reproduce({"A1", "--quick", "-o", folder / "file"}), {"file", "no folder"});
   expectRefused(reproduce({"A1", "--quick", "--set", "rays.coarse=2", "-o", folder / "out"}),
                 {"rays.coarse", "did you mean"});
 }

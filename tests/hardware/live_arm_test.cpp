@@ -130,6 +130,12 @@ TEST_F(LiveArmTest, AStopBeforeTheMotionSendsNothing) {
   EXPECT_EQ(behind.sent, 0);
 }
 
+TEST_F(LiveArmTest, SendsNothingToGoWhereItIs) {
+  const auto live = arm();
+  live->adjust(live->state().T_world_camera, {});
+  EXPECT_EQ(behind.sent, 0);
+}
+
 TEST_F(LiveArmTest, LostJointsCancelTheMotion) {
   const auto live = arm();
   behind.on_poll = [&] { behind.reading_lost = behind.polls == 2 ? "axis_3 is read as nan" : ""; };
