@@ -78,12 +78,11 @@ PinholeCamera modelOf(openni::VideoStream& stream, const Eigen::Vector2d& range_
   return camera;
 }
 
-}  // namespace
-
-struct OpenNiCamera::State : openni::OpenNI::DeviceDisconnectedListener {
-  State(const std::string& uri_, double patience_s)
+class OpenNiCamera : public LiveCamera, openni::OpenNI::DeviceDisconnectedListener {
+ public:
+  OpenNiCamera(const std::string& uri_, double patience_s)
       : uri(uri_), inbox("camera openni2:" + uri_, patience_s) {}
-  ~State() override {
+  ~OpenNiCamera() override {
     if (reader.joinable()) {
       reader.request_stop();
       reader.join();
@@ -93,6 +92,15 @@ struct OpenNiCamera::State : openni::OpenNI::DeviceDisconnectedListener {
     stream.destroy();
     device.close();
   }
+
+  const PinholeCamera& model() const override { return camera; }
+  std::optional<DepthFrame> capture(const Pose& T_world_camera, std::uint64_t) override {
+    if (!device.isFile()) return DepthFrame{inbox.next(), T_world_camera};
+    std::optional<DepthImage> depth = play();
+    if (!depth) return std::nullopt;
+    return DepthFrame{std::move(*depth), T_world_camera};
+  }
+  std::string trouble() const override { return device.isFile() ? std::string() : inbox.trouble(); }
 
   void open(const Eigen::Vector2d& range_m) {
     const auto require = [](openni::Status status) {
@@ -109,12 +117,19 @@ struct OpenNiCamera::State : openni::OpenNI::DeviceDisconnectedListener {
       playback->setSpeed(-1.0f);  // image by image
       images_left = playback->getNumberOfFrames(stream);
     }
-    model = modelOf(stream, range_m);
+    camera = modelOf(stream, range_m);
     require(stream.start());
-    if (!device.isFile()) {
-      openni::OpenNI::addDeviceDisconnectedListener(this);
-      reader = std::jthread([this](std::stop_token stop) { read(stop); });
-    }
+    if (device.isFile()) return;
+    openni::OpenNI::addDeviceDisconnectedListener(this);
+    reader = std::jthread([this](std::stop_token stop) { read(stop); });
+    requireSize(inbox.next());
+  }
+
+ private:
+  void requireSize(const DepthImage& depth) const {
+    if (depth.width == camera.width && depth.height == camera.height) return;
+    throw std::invalid_argument(fmt::format("its images are {}x{}, and it says {}x{}", depth.width,
+                                            depth.height, camera.width, camera.height));
   }
 
   void read(std::stop_token stop) {
@@ -149,9 +164,8 @@ struct OpenNiCamera::State : openni::OpenNI::DeviceDisconnectedListener {
       throw DeviceLost("recording " + uri + ": " + lastWords());
     try {
       DepthImage depth = depthOf(frame);
-      if (depth.width == model.width && depth.height == model.height) return depth;
-      throw std::invalid_argument(fmt::format("an image of {}x{} among those of {}x{}", depth.width,
-                                              depth.height, model.width, model.height));
+      requireSize(depth);
+      return depth;
     } catch (const std::invalid_argument& error) {
       throw DeviceLost("recording " + uri + ": " + error.what());
     }
@@ -160,48 +174,26 @@ struct OpenNiCamera::State : openni::OpenNI::DeviceDisconnectedListener {
   const std::string uri;
   openni::Device device;
   openni::VideoStream stream;
-  PinholeCamera model;
+  PinholeCamera camera;
   int images_left = 0;  ///< of a recording
   FrameInbox inbox;
   std::jthread reader;  ///< of a live camera
 };
 
-OpenNiCamera::OpenNiCamera(const std::string& uri, const Eigen::Vector2d& range_m, double patience_s) {
-  const std::string name = "openni2:" + uri;
+}  // namespace
+
+std::unique_ptr<LiveCamera> openOpenNiCamera(const std::string& uri, const Eigen::Vector2d& range_m,
+                                             double patience_s) {
   if (uri.ends_with(".oni") && !std::filesystem::is_regular_file(uri))
     throw InputError(uri, "is no file; give the path of a recording");
-  state_ = std::make_unique<State>(uri, patience_s);
+  auto camera = std::make_unique<OpenNiCamera>(uri, patience_s);
   try {
-    state_->open(range_m);
+    camera->open(range_m);
   } catch (const std::exception& error) {
-    throw InputError(name, fmt::format("{}; see 'vantage devices' for what is there", error.what()));
+    throw InputError("openni2:" + uri,
+                     fmt::format("{}; see 'vantage devices' for what is there", error.what()));
   }
-  if (state_->device.isFile()) return;
-  try {
-    const DepthImage first = state_->inbox.next();
-    if (first.width != state_->model.width || first.height != state_->model.height)
-      throw DeviceLost(fmt::format("its images are {}x{}, and it says {}x{}", first.width, first.height,
-                                   state_->model.width, state_->model.height));
-  } catch (const DeviceLost& error) {
-    throw InputError(name, error.what());
-  }
-}
-
-OpenNiCamera::~OpenNiCamera() = default;
-
-const PinholeCamera& OpenNiCamera::model() const {
-  return state_->model;
-}
-
-std::optional<DepthFrame> OpenNiCamera::capture(const Pose& T_world_camera, std::uint64_t) {
-  if (!state_->device.isFile()) return DepthFrame{state_->inbox.next(), T_world_camera};
-  std::optional<DepthImage> depth = state_->play();
-  if (!depth) return std::nullopt;
-  return DepthFrame{std::move(*depth), T_world_camera};
-}
-
-std::string OpenNiCamera::trouble() const {
-  return state_->device.isFile() ? std::string() : state_->inbox.trouble();
+  return camera;
 }
 
 DeviceKind openNiDevices() {

@@ -9,20 +9,8 @@ constexpr const char* kAbsent =
 
 }  // namespace
 
-struct OpenNiCamera::State {};
-
-OpenNiCamera::OpenNiCamera(const std::string& uri, const Eigen::Vector2d&, double) {
+std::unique_ptr<LiveCamera> openOpenNiCamera(const std::string& uri, const Eigen::Vector2d&, double) {
   throw InputError("openni2:" + uri, kAbsent);
-}
-OpenNiCamera::~OpenNiCamera() = default;
-const PinholeCamera& OpenNiCamera::model() const {
-  throw InputError("openni2", kAbsent);
-}
-std::optional<DepthFrame> OpenNiCamera::capture(const Pose&, std::uint64_t) {
-  return std::nullopt;
-}
-std::string OpenNiCamera::trouble() const {
-  return kAbsent;
 }
 
 DeviceKind openNiDevices() {

@@ -3,34 +3,21 @@
 #include <memory>
 #include <string>
 
-#include "core/exploration/ports.h"
 #include "core/motion/robot_model.h"
 #include "hardware/device_list.h"
 #include "hardware/live_arm.h"
+#include "hardware/live_camera.h"
 
 namespace vantage {
 
 /// Depth camera behind ROS 1: images of type sensor_msgs/Image (`16UC1` or `mono16` in millimetres, `32FC1`
-/// in metres), and beside them its calibration, `camera_info`. The image is taken as rectified. Where the
-/// master is, says ROS_MASTER_URI.
-class RosCamera : public DepthCamera {
- public:
-  /// Waits until calibration and a first image came. \param topic of the images \param range nearest and
-  /// farthest range of the camera, metres, which ROS does not tell \param patience_s seconds until a camera
-  /// that sends nothing counts as lost. \throws InputError without master, images or calibration, saying
-  /// which
-  RosCamera(const std::string& topic, const Eigen::Vector2d& range_m, double patience_s = 2.0);
-  ~RosCamera() override;
-
-  const PinholeCamera& model() const override;
-  std::optional<DepthFrame> capture(const Pose& T_world_camera, std::uint64_t index) override;
-  /// What keeps images from coming, empty if they come.
-  std::string trouble() const;
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
+/// in metres), and beside them their calibration, `camera_info`. The image is taken as rectified. Where the
+/// master is, says ROS_MASTER_URI. Waits until calibration and a first image came. \param topic of the images
+/// \param range_m nearest and farthest range of the camera, metres, which ROS does not tell
+/// \param patience_s seconds until a camera that sends nothing counts as lost. \throws InputError without
+/// master, images or calibration, saying which
+std::unique_ptr<LiveCamera> openRosCamera(const std::string& topic, const Eigen::Vector2d& range_m,
+                                          double patience_s = 2.0);
 
 /// Topics of an arm behind ROS 1.
 struct RosArmTopics {

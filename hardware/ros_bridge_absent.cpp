@@ -10,20 +10,8 @@ constexpr const char* kAbsent =
 
 }  // namespace
 
-struct RosCamera::State {};
-
-RosCamera::RosCamera(const std::string& topic, const Eigen::Vector2d&, double) {
+std::unique_ptr<LiveCamera> openRosCamera(const std::string& topic, const Eigen::Vector2d&, double) {
   throw InputError("ros:" + topic, kAbsent);
-}
-RosCamera::~RosCamera() = default;
-const PinholeCamera& RosCamera::model() const {
-  throw InputError("ros", kAbsent);
-}
-std::optional<DepthFrame> RosCamera::capture(const Pose&, std::uint64_t) {
-  return std::nullopt;
-}
-std::string RosCamera::trouble() const {
-  return kAbsent;
 }
 
 std::unique_ptr<ArmLink> rosArmLink(const RobotModel&, const RosArmTopics& topics, double) {

@@ -27,13 +27,21 @@ std::string poseText(const Pose& pose) {
 
 }  // namespace
 
+void requireEmptyFolder(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder, error)) return;
+  if (!fs::is_directory(folder, error))
+    throw InputError(folder.string(), "is no folder; choose another name");
+  if (!fs::is_empty(folder, error))
+    throw InputError(folder.string(), "there is something in it; a recording wants a folder of its own");
+}
+
 DatasetWriter::DatasetWriter(const fs::path& folder, const PinholeCamera& camera, const Settings& settings)
     : folder_(folder) {
+  requireEmptyFolder(folder);
   std::error_code error;
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder)) throw InputError(folder.string(), "is no folder and cannot be made one");
-  if (!fs::is_empty(folder, error))
-    throw InputError(folder.string(), "there is something in it; a recording wants a folder of its own");
   saveFile(folder / "dataset.toml", describe(camera, settings.exploration.fusion.observations_per_frame));
   saveFile(folder / "config.toml", effectiveToml(settings));
 }

@@ -10,6 +10,9 @@
 
 namespace vantage {
 
+/// Refuses a folder with something in it, before work is spent on a recording. \throws InputError
+void requireEmptyFolder(const std::filesystem::path& folder);
+
 /// Records depth frames with poses as a data set that openDataset() reads: `frame-NUMBER.depth.png` in whole
 /// millimetres, `frame-NUMBER.pose.txt`, and `dataset.toml`. Beside them `config.toml`, the settings of the
 /// session: with them the frames fuse to the same map again. A frame is complete or absent, whenever the
@@ -26,8 +29,6 @@ class DatasetWriter {
   };
   /// \throws InputError if it can't be written
   Frame append(const DepthImage& depth, const Pose& T_world_camera);
-  int count() const { return count_; }
-  const std::filesystem::path& folder() const { return folder_; }
 
  private:
   std::filesystem::path folder_;

@@ -65,7 +65,7 @@ struct ExplorationConfig {
 struct ExplorationResult {
   std::string stop_reason;  ///< "steps done", "finished", "no frames left", "cancelled" or "device lost"
   int steps = 0;            ///< records completed
-  std::string lost = {};    ///< of "device lost": which device, and what it did last
+  std::string lost = {};    ///< of a run that failed: which device was lost, and what it did last
 };
 
 /// The exploration loop. Owns the maps; publishes a growing record after every stage.

@@ -198,9 +198,14 @@ TEST(ExploreLive, SaysWhatIsMissing) {
   options.environment["ROS_MASTER_URI"] = "http://127.0.0.1:1";
   options.environment["ROS_HOME"] = folder.path();
   expectRefused(vantage({"explore", "ros:/camera/image_raw"}, options), {"held by an arm", "--controller"});
-  expectRefused(
-      vantage({"explore", "ros:/camera/image_raw", "--robot", "ur5", "--controller", "ros:/arm"}, options),
-      {"ros:/camera/image_raw"});
+  const std::vector<std::string> live = {"explore", "ros:/camera/image_raw", "--robot",
+                                         "ur5",     "--controller",          "ros:/arm"};
+  expectRefused(vantage(live, options), {"arm.base_m", "has to be given"});
+  std::vector<std::string> placed = live;
+  placed.insert(placed.end(), {"--set", "arm.base_m=[0,0,0]", "--set", "arm.clear_boxes_m=[-1,-1,-1,1,1,1]"});
+  expectRefused(vantage(placed, options), {"ros:/camera/image_raw"});
+  placed[1] = "openni2:";
+  expectRefused(vantage(placed, options), {"openni2:", "names no camera"});
   expectRefused(
       vantage({"explore", "ros:/camera/image_raw", "--robot", "ur5", "--controller", "arm"}, options),
       {"--controller arm", "vantage devices"});

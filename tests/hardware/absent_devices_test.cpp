@@ -25,11 +25,11 @@ std::string errorOf(const Act& act) {
 TEST(AbsentDevices, SayWhatToInstall) {
   EXPECT_THAT(
       errorOf([] {
-        OpenNiCamera("test://depth", {0.5, 8.0});
+        openOpenNiCamera("test://depth", {0.5, 8.0});
       }),
       HasSubstr("openni2:test://depth: this program was built without OpenNI2; install libopenni2-dev"));
   EXPECT_THAT(errorOf([] {
-                RosCamera("/camera/image_raw", {0.5, 8.0});
+                openRosCamera("/camera/image_raw", {0.5, 8.0});
               }),
               HasSubstr("ros:/camera/image_raw: this program was built without ROS; install libroscpp-dev"));
   EXPECT_THAT(errorOf([] { rosArmLink({}, {"/arm"}); }),

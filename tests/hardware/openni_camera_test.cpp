@@ -37,14 +37,14 @@ TEST(OpenNiCamera, IsListed) {
 }
 
 TEST(OpenNiCamera, DeliversMillimetresAndItsCalibration) {
-  OpenNiCamera camera("test://depth", {0.5, 8.0});
-  EXPECT_EQ(camera.model().width, 320);
-  EXPECT_EQ(camera.model().height, 240);
-  EXPECT_NEAR(camera.model().horizontalFov_rad(), 1.0144, 1e-6);
-  EXPECT_NEAR(camera.model().verticalFov_rad(), 0.7898, 1e-6);
-  EXPECT_EQ(camera.model().max_range_m, 8.0);
+  const auto camera = openOpenNiCamera("test://depth", {0.5, 8.0});
+  EXPECT_EQ(camera->model().width, 320);
+  EXPECT_EQ(camera->model().height, 240);
+  EXPECT_NEAR(camera->model().horizontalFov_rad(), 1.0144, 1e-6);
+  EXPECT_NEAR(camera->model().verticalFov_rad(), 0.7898, 1e-6);
+  EXPECT_EQ(camera->model().max_range_m, 8.0);
   const Pose pose = makePose({1, 2, 3}, Eigen::Quaterniond::Identity());
-  const auto first = camera.capture(pose, 0), second = camera.capture(pose, 1);
+  const auto first = camera->capture(pose, 0), second = camera->capture(pose, 1);
   ASSERT_TRUE(first && second);
   EXPECT_TRUE(first->T_world_camera.isApprox(pose));
   EXPECT_TRUE(std::isnan(first->depth.at(0, 0)));
@@ -55,7 +55,7 @@ TEST(OpenNiCamera, DeliversMillimetresAndItsCalibration) {
 
 TEST(OpenNiCamera, TwoUsesFollowEachOther) {
   for (int i = 0; i < 2; ++i)
-    EXPECT_TRUE(OpenNiCamera("test://depth", {0.5, 8.0}).capture(Pose::Identity(), 0)) << i;
+    EXPECT_TRUE(openOpenNiCamera("test://depth", {0.5, 8.0})->capture(Pose::Identity(), 0)) << i;
 }
 
 /// Records images of the driver with OpenNI itself.
@@ -88,11 +88,11 @@ TEST(OpenNiCamera, PlaysARecordingImageByImage) {
   const TemporaryFolder folder;
   const std::string path = folder / "session.oni";
   record(path, 12);
-  OpenNiCamera camera(path, {0.5, 8.0});
-  EXPECT_EQ(camera.model().width, 320);
-  EXPECT_NEAR(camera.model().horizontalFov_rad(), 1.0144, 1e-6);
+  const auto camera = openOpenNiCamera(path, {0.5, 8.0});
+  EXPECT_EQ(camera->model().width, 320);
+  EXPECT_NEAR(camera->model().horizontalFov_rad(), 1.0144, 1e-6);
   int images = 0, last = 0;
-  while (const auto frame = camera.capture(Pose::Identity(), images)) {
+  while (const auto frame = camera->capture(Pose::Identity(), images)) {
     const int n = numberOf(frame->depth);
     if (images > 0) {
       EXPECT_EQ(n, last + 1);
@@ -103,13 +103,13 @@ TEST(OpenNiCamera, PlaysARecordingImageByImage) {
     ++images;
   }
   EXPECT_GE(images, 10);
-  EXPECT_EQ(camera.trouble(), "");
+  EXPECT_EQ(camera->trouble(), "");
 }
 
 std::string lossOf(const std::string& uri) {
-  OpenNiCamera camera(uri, {0.5, 8.0}, kPatience_s);
+  const auto camera = openOpenNiCamera(uri, {0.5, 8.0}, kPatience_s);
   return errorOf([&] {
-    for (int i = 0; i < 100; ++i) camera.capture(Pose::Identity(), i);
+    for (int i = 0; i < 100; ++i) camera->capture(Pose::Identity(), i);
   });
 }
 
@@ -129,19 +129,16 @@ TEST(OpenNiCamera, AnUnpluggedCameraIsALoss) {
 TEST(OpenNiCamera, RefusesWhatIsNotThere) {
   const TemporaryFolder folder;
   EXPECT_THAT(errorOf([] {
-                OpenNiCamera("test://nobody", {0.5, 8.0});
+                openOpenNiCamera("test://nobody", {0.5, 8.0});
               }),
               HasSubstr("openni2:test://nobody: "));
-  EXPECT_THAT(errorOf([&] { OpenNiCamera(folder / "none.oni", {0.5, 8.0}); }), HasSubstr("is no file"));
+  EXPECT_THAT(errorOf([&] { openOpenNiCamera(folder / "none.oni", {0.5, 8.0}); }), HasSubstr("is no file"));
   writeFile(folder / "text.oni", "this is no recording\n");
-  EXPECT_THAT(errorOf([&] { OpenNiCamera(folder / "text.oni", {0.5, 8.0}); }), HasSubstr("text.oni"));
+  EXPECT_THAT(errorOf([&] { openOpenNiCamera(folder / "text.oni", {0.5, 8.0}); }), HasSubstr("text.oni"));
   const std::string path = folder / "cut.oni";
   record(path, 12);
   writeFile(path, readFile(path).substr(0, 20000));
-  errorOf([&] {
-    OpenNiCamera camera(path, {0.5, 8.0});
-    for (int i = 0; i < 100 && camera.capture(Pose::Identity(), i); ++i) continue;
-  });
+  EXPECT_THAT(errorOf([&] { openOpenNiCamera(path, {0.5, 8.0}); }), HasSubstr("cut.oni"));
 }
 
 }  // namespace

@@ -125,15 +125,15 @@ TEST(Ros, ListsWhatTheMasterKnows) {
 
 TEST(Ros, TheCameraDeliversWhatTheHandSees) {
   const Robot robot;
-  RosCamera camera(robot.camera(), {0.5, 8.0});
-  EXPECT_EQ(camera.model().width, 256);
-  EXPECT_EQ(camera.model().fx, 182.5);
+  const auto camera = openRosCamera(robot.camera(), {0.5, 8.0});
+  EXPECT_EQ(camera->model().width, 256);
+  EXPECT_EQ(camera->model().fx, 182.5);
   const Pose pose = makePose({1, 2, 3}, Eigen::Quaterniond::Identity());
-  const auto frame = camera.capture(pose, 0);
+  const auto frame = camera->capture(pose, 0);
   ASSERT_TRUE(frame);
   EXPECT_TRUE(frame->T_world_camera.isApprox(pose));
   EXPECT_NEAR(frame->depth.at(128, 106), 0.95, 0.25) << "the box is about a metre away";
-  EXPECT_EQ(camera.trouble(), "");
+  EXPECT_EQ(camera->trouble(), "");
 }
 
 TEST(Ros, TheArmGoesWhereItIsSent) {
@@ -187,10 +187,13 @@ TEST(Ros, SaysWhatIsMissingWhenItOpens) {
   const Robot robot;
   const RobotModel model = loadRobot("smart_six"), other = loadRobot("ur5");
   EXPECT_THAT(refusalOf([&] {
-                RosCamera("/nobody/image_raw", {0.5, 8.0});
+                openRosCamera("/nobody/image_raw", {0.5, 8.0});
               }),
               HasSubstr("no calibration came on /nobody/camera_info"));
-  EXPECT_THAT(refusalOf([&] { RosCamera("no topic at all", {0.5, 8.0}); }), HasSubstr("ros:no topic at all"));
+  EXPECT_THAT(refusalOf([&] {
+                openRosCamera("no topic at all", {0.5, 8.0});
+              }),
+              HasSubstr("ros:no topic at all"));
   EXPECT_THAT(refusalOf([&] {
                 rosArmLink(model, {"/nobody", "/joint_states"});
               }),
@@ -202,7 +205,7 @@ TEST(Ros, SaysWhatIsMissingWhenItOpens) {
 TEST(Ros, ImagesThatAreNoDepthAreRefused) {
   const Robot robot("bgr");
   EXPECT_THAT(refusalOf([&] {
-                RosCamera(robot.camera(), {0.5, 8.0}, 0.5);
+                openRosCamera(robot.camera(), {0.5, 8.0}, 0.5);
               }),
               HasSubstr("'bgr8', which is no depth"));
 }
@@ -210,7 +213,7 @@ TEST(Ros, ImagesThatAreNoDepthAreRefused) {
 TEST(Ros, ACameraWithoutImagesIsRefused) {
   const Robot robot("no_images");
   EXPECT_THAT(refusalOf([&] {
-                RosCamera(robot.camera(), {0.5, 8.0}, 0.5);
+                openRosCamera(robot.camera(), {0.5, 8.0}, 0.5);
               }),
               HasSubstr("ros:" + robot.space));
 }
@@ -278,11 +281,12 @@ TEST(RosSession, ACameraOfOpenNiSitsInTheSameHand) {
   const TemporaryFolder folder;
   ProcessOptions options;
   options.environment["LD_LIBRARY_PATH"] = OPENNI_FOLDER;
-  const ProcessResult result =
-      vantage({"explore", "openni2:test://depth", "--robot", "smart_six", "--controller",
-               "ros:" + robot.arm().controller, "--joint-states", robot.arm().joint_states, "--steps", "0",
-               "--set", "scan.initial_frames=3", "-o", folder / "live.vantage"},
-              options);
+  writeFile(folder / "box.toml", vantage({"config", "box"}).out);
+  const ProcessResult result = vantage(
+      {"explore", "openni2:test://depth", "--robot", "smart_six", "--controller",
+       "ros:" + robot.arm().controller, "--joint-states", robot.arm().joint_states, "--steps", "0",
+       "--config", folder / "box.toml", "--set", "scan.initial_frames=3", "-o", folder / "live.vantage"},
+      options);
   ASSERT_EQ(result.code, 0) << result.err;
   const RunReader run(folder / "live.vantage");
   EXPECT_EQ(run.header().camera.width, 320);

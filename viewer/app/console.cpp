@@ -21,6 +21,8 @@ bool g_log_json = false;  // set once by setUpLog(), before any work starts
 
 /// Ends the program at once, as a shell expects of one that was interrupted.
 constexpr int kInterruptedCode = 130;
+constexpr std::chrono::seconds kOneRequest{
+    1};  // signals so close together are one: an arm has to be stopped first
 
 /// SIGINT, SIGTERM and SIGHUP as a set.
 sigset_t stopSignals() {
@@ -50,10 +52,15 @@ void watchStopSignals() {
   pthread_sigmask(SIG_BLOCK, &set, nullptr);  // threads made later inherit this
   stopTarget();
   std::thread([set] {
+    Clock::time_point asked_at;
     for (int signal = 0; sigwait(&set, &signal) == 0;) {
       const std::lock_guard lock(stopTarget().mutex);
       std::stop_source* stop = stopTarget().stop;
-      if (stop && stop->request_stop()) continue;
+      if (stop && stop->request_stop()) {
+        asked_at = Clock::now();
+        continue;
+      }
+      if (stop && Clock::now() - asked_at < kOneRequest) continue;
       std::fputs("vantage: interrupted; nothing more was written\n", stderr);
       _exit(kInterruptedCode);  // nothing to save, or asked twice
     }

@@ -105,17 +105,21 @@ std::string nameOf(std::string_view kind, const std::string& device) {
   return device.starts_with(kind) ? device.substr(kind.size()) : std::string();
 }
 
-/// A camera, and what keeps its images from coming (empty text: nothing does).
-struct LiveCamera {
-  std::unique_ptr<DepthCamera> camera;
-  std::function<std::string()> trouble;
-};
+std::unique_ptr<LiveCamera> openCamera(const std::string& device, const PinholeCamera& settings) {
+  const Eigen::Vector2d range_m(settings.min_range_m, settings.max_range_m);
+  if (const std::string topic = nameOf(kRos, device); !topic.empty()) return openRosCamera(topic, range_m);
+  if (const std::string uri = nameOf(kOpenNi, device); !uri.empty()) return openOpenNiCamera(uri, range_m);
+  throw InputError(device, "names no camera; 'vantage devices' lists them, e.g. ros:/camera/depth/image_raw");
+}
 
-template <class Camera>
-LiveCamera openCamera(const std::string& name, const PinholeCamera& settings) {
-  auto camera = std::make_unique<Camera>(name, Eigen::Vector2d(settings.min_range_m, settings.max_range_m));
-  const Camera& opened = *camera;
-  return {std::move(camera), [&opened] { return opened.trouble(); }};
+/// The arm's surroundings are no default: those of the simulated table are elsewhere.
+void requirePlace(const Settings& settings) {
+  for (const char* key : {"arm.base_m", "arm.clear_boxes_m"})
+    if (!settings.origins.contains(key))
+      throw InputError(
+          key,
+          "has to be given for an arm that truly moves: where it stands, and which boxes you vouch to "
+          "hold nothing but the arm (--config lab.toml)");
 }
 
 /// A live camera in the hand of a live arm.
@@ -126,7 +130,6 @@ ExplorationInput openLive(const GlobalOptions& global, const ExplorationRequest&
                      "--controller DEVICE ('vantage robots', 'vantage devices')");
   ExplorationInput input;
   input.name = "live";
-  input.live = true;
   Settings& s = input.settings;
   applyUserConfig(s);
   takeNothingForFree(s);
@@ -136,13 +139,13 @@ ExplorationInput openLive(const GlobalOptions& global, const ExplorationRequest&
   if (controller.empty())
     throw InputError("--controller " + request.controller,
                      "is no controller; 'vantage devices' lists them, e.g. ros:/arm/follow_joint_trajectory");
-  const std::string openni = nameOf(kOpenNi, request.input);
-  LiveCamera live = openni.empty() ? openCamera<RosCamera>(nameOf(kRos, request.input), s.camera)
-                                   : openCamera<OpenNiCamera>(openni, s.camera);
-  input.camera = std::move(live.camera);
+  requirePlace(s);
+  auto camera = openCamera(request.input, s.camera);
+  const auto watch = [&live = *camera] { return live.trouble(); };
+  input.camera = std::move(camera);
   s.camera = input.camera->model();
   giveArm<EyeInHandCamera>(input, request.robot, [&](const RobotModel& model) {
-    return liveArm(model, s, rosArmLink(model, {controller, request.joint_states}), live.trouble);
+    return liveArm(model, s, rosArmLink(model, {controller, request.joint_states}), watch);
   });
   return input;
 }

@@ -18,7 +18,6 @@ struct ExplorationInput {
   std::string name;        ///< scene name or the data set's name
   std::string scene_text;  ///< scene TOML, empty for a data set
   bool replay = false;
-  bool live = false;  ///< devices, not simulated
   Settings settings;
   std::vector<std::unique_ptr<DepthCamera>> behind;  ///< cameras that `camera` refers to
   std::unique_ptr<DepthCamera> camera;

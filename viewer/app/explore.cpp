@@ -6,6 +6,8 @@
 
 #include "core/exploration/explorer.h"
 #include "core/gpu/egl_context.h"
+#include "core/motion/arm_planner.h"
+#include "io/dataset_writer.h"
 #include "io/json_summary.h"
 #include "io/run_file.h"
 #include "io/text_file.h"
@@ -122,6 +124,7 @@ void checkOutputs(const GlobalOptions& global, const ExploreOptions& options) {
                         {"--record", options.record},
                         {"--snapshots", options.snapshots}});
   if (!global.json.empty() && global.json != "-") requireCreatable(global.json);
+  if (!options.record.empty()) requireEmptyFolder(options.record);
   if (options.snapshots.empty()) return;
   std::error_code error;
   std::filesystem::create_directories(options.snapshots, error);
@@ -137,6 +140,22 @@ void recordLive(ExploreOptions& options) {
   if (options.run.empty()) options.run = "live.vantage";
   if (options.record.empty())
     options.record = std::filesystem::path(options.run).replace_extension().string() + "-frames";
+}
+
+/// An arm that must not go on, or a frame that can't be recorded, ends the run; what it has is kept and
+/// closed.
+ExplorationResult runToEnd(Explorer& explorer, const RunControl& control) {
+  int steps = 0;
+  explorer.addObserver([&](const std::shared_ptr<const StepRecord>& record) {
+    steps += record->stage == Stage::Done && !record->closing;
+  });
+  try {
+    return explorer.run(control);
+  } catch (const ArmRefusal& refusal) {
+    return {"failed", steps, refusal.what()};
+  } catch (const InputError& error) {
+    return {"failed", steps, error.what()};
+  }
 }
 
 int explore(const GlobalOptions& global, ExploreOptions options) {
@@ -165,7 +184,7 @@ int explore(const GlobalOptions& global, ExploreOptions options) {
     console.clear();
     say(global, stepText(*record, input.settings.exploration.hierarchical.stop_gain));
   });
-  const ExplorationResult result = explorer.run(console.control());
+  const ExplorationResult result = runToEnd(explorer, console.control());
   writer.finish(result.stop_reason);
   json.finish(result.stop_reason);
   console.clear();
