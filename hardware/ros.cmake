@@ -1,20 +1,16 @@
-# vantage_ros: the packages of ROS 1 that a live arm and camera need, and the headers of control_msgs, which Debian
-# does not package. VANTAGE_ROS_FOUND says whether there is all of it.
-set(VANTAGE_ROS_FOUND FALSE CACHE INTERNAL "")
-if(VANTAGE_ROS)
-  pkg_check_modules(ROS IMPORTED_TARGET GLOBAL roscpp rosconsole roscpp_serialization rostime sensor_msgs trajectory_msgs actionlib)
-  find_program(ROS_GENACTION genaction.py PATHS /usr/lib/actionlib_msgs)
-  find_program(ROS_GENCPP gen_cpp.py PATHS /usr/lib/gencpp)
-  find_path(ROS_MESSAGES std_msgs/msg/Header.msg PATHS /usr/share)
-  if(ROS_FOUND AND ROS_GENACTION AND ROS_GENCPP AND ROS_MESSAGES)
-    set(VANTAGE_ROS_FOUND TRUE CACHE INTERNAL "")
-  else()
-    message(STATUS "ROS 1 not found: built without its adapter (Debian: libroscpp-dev libsensor-msgs-dev "
-                   "libtrajectory-msgs-dev libactionlib-dev python3-gencpp ros-actionlib-msgs)")
-  endif()
+# vantage_ros_adapter: the packages of ROS 1 that a live arm and camera need, and the headers of control_msgs, which
+# Debian does not package. No such target without all of it.
+find_program(ROS_GENACTION genaction.py PATHS /usr/lib/actionlib_msgs)
+find_program(ROS_GENCPP gen_cpp.py PATHS /usr/lib/gencpp)
+find_path(ROS_MESSAGES std_msgs/msg/Header.msg PATHS /usr/share)
+if(ROS_GENACTION AND ROS_GENCPP AND ROS_MESSAGES)
+  vantage_ros(vantage_ros_adapter roscpp rosconsole roscpp_serialization rostime sensor_msgs trajectory_msgs actionlib)
+else()
+  message(STATUS "vantage_ros_adapter: built without ROS; the generators of messages are missing (Debian: python3-gencpp "
+                 "ros-actionlib-msgs)")
 endif()
 
-if(VANTAGE_ROS_FOUND)
+if(TARGET vantage_ros_adapter)
   set(python /usr/bin/python3)  # Debian's own, for which the generators are packaged
   set(sources ${CMAKE_CURRENT_LIST_DIR}/control_msgs)
   set(generated ${CMAKE_BINARY_DIR}/control_msgs)
@@ -41,8 +37,6 @@ if(VANTAGE_ROS_FOUND)
   endforeach()
   add_custom_target(vantage_control_msgs DEPENDS ${headers})
 
-  add_library(vantage_ros INTERFACE)
-  target_link_libraries(vantage_ros INTERFACE PkgConfig::ROS)
-  target_include_directories(vantage_ros SYSTEM INTERFACE ${generated}/include)
-  add_dependencies(vantage_ros vantage_control_msgs)
+  target_include_directories(vantage_ros_adapter SYSTEM INTERFACE ${generated}/include)
+  add_dependencies(vantage_ros_adapter vantage_control_msgs)
 endif()
